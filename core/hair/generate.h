@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one generator: what is shown, exported, tested and rendered comes out of here.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/hair/strands.h"
+#include "core/model/groom.h"
+#include "core/surface/surface.h"
+
+namespace whorl {
+
+struct GenerateOptions {
+    std::optional<std::uint32_t> hairCount{};  ///< instead of counts.hairs
+    std::uint32_t part = 0;                    ///< 0 to partCount - 1
+    std::uint32_t partCount = 1;
+};
+
+/// Hairs of `count` that belong to part `part` of `partCount`: ids [first, last). Parts are neighbours on the surface.
+struct HairRange {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+};
+HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partCount);
+
+/// Turns grooms into hair and keeps what the next call can use again: sampler, roots, bindings of hairs to guides.
+/// Per hair (seed 000, section 4.2.2): root sample, cut, group, interpolation from the nearest guides of the group
+/// (KD-tree, Shepard weights), scale, frizz, kink, colour, opacity, width, cut, normals by double reflection.
+/// A hair whose cut is zero, or for which there are no guides, is left out; ids keep their gaps.
+/// The same groom, seed and options give the same bytes on any number of threads, any split and any SIMD level.
+/// One thread at a time; use one Generator a thread.
+class Generator {
+public:
+    Generator();
+    ~Generator();
+    Generator(Generator&&) noexcept;
+    Generator& operator=(Generator&&) noexcept;
+
+    /// The whole part in memory.
+    Result<Strands> generate(const Groom& groom, const GenerateOptions& options, Progress& progress);
+
+    /// In blocks of at most `blockSize` hairs, in order of id, with constant memory: `sink` gets each block once, from
+    /// the calling thread, and returns false to stop (the call then gives cancelledError()).
+    Result<void> stream(const Groom& groom, const GenerateOptions& options, std::uint32_t blockSize,
+                        const std::function<bool(const Strands&)>& sink, Progress& progress);
+
+    /// Uses (and shares) a surface that the caller has already.
+    void setSurface(std::shared_ptr<const Surface> surface);
+
+private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+/// Digest of all hair of the groom: equal for any `parts` and any number of threads.
+Result<std::uint64_t> hairDigest(const Groom& groom, std::uint32_t parts, std::optional<std::uint32_t> hairCount,
+                                 Progress& progress);
+
+}  // namespace whorl

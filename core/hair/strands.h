@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Generated hair, as it is drawn, hashed, exported and handed to renderers.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "core/base/hash.h"
+#include "core/surface/surface_point.h"
+
+namespace whorl {
+
+/// Catmull-Rom curves through their vertices (the curve passes through all of them, ends included). Immutable once
+/// shared. Arrays of one kind have equal length: a hair, or a vertex.
+struct Strands {
+    std::vector<std::uint32_t> firstVertex{0};  ///< n+1 entries; hair i has vertices [firstVertex[i], firstVertex[i+1])
+
+    // One a hair.
+    std::vector<std::uint32_t> ids;  ///< index of the hair in the whole groom, however it was split
+    std::vector<SurfacePoint> roots;
+    std::vector<glm::vec2> rootUvs;
+    std::vector<std::uint8_t> groups;
+
+    // One a vertex.
+    std::vector<glm::vec3> positions;  ///< metres, space of the mesh
+    std::vector<glm::vec3> normals;    ///< unit, perpendicular to the curve, rotation minimising (Wang et al. 2008)
+    std::vector<float> widths;         ///< diameter, metres
+    std::vector<glm::vec4> colours;    ///< linear RGB and opacity
+
+    std::size_t count() const { return ids.size(); }
+    std::size_t vertexCount() const { return positions.size(); }
+    std::size_t bytes() const;
+    void append(const Strands& more);
+    void clear();
+
+    /// Exact box of the rendered curve with its width, not only of the vertices.
+    Bounds bounds() const;
+    /// Adds every hair in order: equal for the same hair however it was cut into parts or blocks.
+    void addTo(Hasher& hasher) const;
+};
+
+}  // namespace whorl

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Groom: everything that the artist made, as one value.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/cow.h"
+#include "core/model/guide_set.h"
+#include "core/model/hair_params.h"
+#include "core/model/map.h"
+#include "core/model/surface_mesh.h"
+
+namespace whorl {
+
+/// Guides and hairs that share parameters. The number of a group is its place in Groom::groups.
+struct Group {
+    std::string name;  ///< unique in the groom; letters, digits, '_' and '-'
+    HairParams params{};
+    bool operator==(const Group&) const = default;
+};
+
+/// A groom is a value: copying it is cheap (parts are shared until edited), two copies never see each other's edits.
+/// core turns one Groom into another or into hair; the editor keeps its history as Grooms.
+struct Groom {
+    static constexpr std::size_t maxGroups = 30;
+
+    Cow<SurfaceMesh> mesh;
+    Cow<std::vector<PartSettings>> partSettings;  ///< as many as mesh->parts
+    GuideSet guides;
+    MapSet maps;
+    Cow<std::vector<Group>> groups{{Group{"hair"}}};  ///< 1 to maxGroups
+    Cow<CountParams> counts;
+
+    /// True when every part is shared with `other`: nothing can differ.
+    bool sameAs(const Groom& other) const;
+    /// Memory that keeping this beside `before` costs.
+    std::size_t bytesNotSharedWith(const Groom& before) const;
+    /// Number of the group of that name, or -1.
+    int groupIndex(std::string_view name) const;
+    bool growsHair(std::uint32_t part) const;
+};
+
+/// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides.
+Groom makeGroom(SurfaceMesh mesh);
+
+/// What an opened file or an edit did not do quite as asked, one sentence each, for the artist.
+using Problems = std::vector<std::string>;
+
+/// Checks the laws of a groom (parts match, roots on the mesh, finite points, vertex counts, maps exist). Empty when
+/// all hold. For tests, loaders and `whorl-cli info`.
+Problems checkGroom(const Groom& groom);
+
+}  // namespace whorl

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much hair the artist asks for at a place.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "core/model/groom.h"
+
+namespace whorl {
+
+/// Density asked at a UV of a part: that of the group which the group map picks there (value x map), zero on parts
+/// that grow no hair. Refers to the groom, which must outlive it.
+class DensityLookup {
+public:
+    explicit DensityLookup(const Groom& groom);
+    /// Zero or more; NaN and negative texels count as zero.
+    float at(std::uint32_t triangle, glm::vec2 uv) const;
+    int groupAt(glm::vec2 uv) const;
+    /// Largest texel count along one side of the maps in use: one texel is 1 / this. 1 when no map is used.
+    int mapWidth() const { return m_width; }
+    int mapHeight() const { return m_height; }
+    bool growsOn(std::uint32_t triangle) const;
+
+private:
+    struct Entry {
+        float value;
+        const Map* map;
+    };
+    const Groom& m_groom;
+    std::vector<Entry> m_groups;
+    std::vector<std::uint8_t> m_growsByTriangle;
+    const Map* m_groupMap = nullptr;
+    int m_width = 1;
+    int m_height = 1;
+};
+
+}  // namespace whorl

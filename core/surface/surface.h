@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that is derived from a mesh alone, made once and shared by brushes, generator and renderer.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "core/surface/distance_field.h"
+#include "core/surface/surface_query.h"
+
+namespace whorl {
+
+/// Immutable once made; any thread may ask.
+class Surface {
+public:
+    explicit Surface(Cow<SurfaceMesh> mesh);
+
+    const SurfaceMesh& mesh() const { return query.mesh(); }
+    /// Made at the first call (tens of milliseconds to a second), then kept.
+    const DistanceField& skin() const;
+
+    Cow<SurfaceMesh> shared;
+    SurfaceQuery query;
+    Bounds bounds;
+
+private:
+    mutable std::once_flag m_skinOnce;
+    mutable DistanceField m_skin;
+};
+
+/// Keeps the Surface of the newest mesh. Thread-safe.
+class SurfaceCache {
+public:
+    std::shared_ptr<const Surface> get(const Cow<SurfaceMesh>& mesh);
+
+private:
+    std::mutex m_mutex;
+    std::shared_ptr<const Surface> m_newest;
+};
+
+}  // namespace whorl

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures without a window.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace whorl {
+
+/// RGBA, 8 bit sRGB, rows from the top.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> pixels;
+};
+
+/// A surfaceless EGL context (no display needed) with a Renderer in it.
+class OffscreenRenderer {
+public:
+    static Result<OffscreenRenderer> create();
+    OffscreenRenderer(OffscreenRenderer&&) noexcept;
+    OffscreenRenderer& operator=(OffscreenRenderer&&) noexcept;
+    ~OffscreenRenderer();
+
+    Renderer& renderer() { return *m_renderer; }
+    Picture draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, int width, int height);
+
+private:
+    OffscreenRenderer() = default;
+    void* m_display = nullptr;
+    void* m_context = nullptr;
+    std::unique_ptr<Renderer> m_renderer;
+};
+
+}  // namespace whorl

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a groom and its hair; uploads only what changed since the last picture.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/hair/strands.h"
+#include "core/model/groom.h"
+#include "core/surface/surface.h"
+#include "render/camera.h"
+#include "render/view_settings.h"
+
+namespace whorl {
+
+/// Needs a current OpenGL 4.5 context in every call, always the same and in one thread (also in the destructor).
+/// Inside Qt that is the QOpenGLWidget's; headless it is render/gl/headless.h.
+class Renderer {
+public:
+    static Result<std::unique_ptr<Renderer>> create();
+    ~Renderer();
+
+    /// What to draw from now on. Compares parts with what was there (sameAs, tiles, blocks) and uploads the rest.
+    /// `strands` may be null.
+    void setGroom(const Groom& groom, std::shared_ptr<const Surface> surface);
+    void setStrands(std::shared_ptr<const Strands> strands);
+
+    /// Draws into framebuffer object `target` (0: the window) of `size` pixels, multisampled in an own framebuffer and
+    /// resolved there.
+    void draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, unsigned target,
+              glm::ivec2 size);
+
+    /// Nearest guide to a pixel within `radius` pixels, not hidden by the mesh; its index.
+    std::optional<std::size_t> pickGuide(const Camera& camera, glm::vec2 pixel, float radius, glm::ivec2 size) const;
+
+    /// Milliseconds of the last draw, by pass, for the overlay and the bench.
+    struct Timing {
+        double upload = 0;
+        double shadows = 0;
+        double draw = 0;
+    };
+    Timing timing() const;
+
+private:
+    Renderer();
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+}  // namespace whorl

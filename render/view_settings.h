@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is shown, and how it is lit.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace whorl {
+
+enum class HairShading { KajiyaKay };
+enum class ShadowMode { None, Voxel };
+
+/// Not part of the groom: each view has its own.
+struct ViewSettings {
+    bool showMesh = true;
+    bool showTexture = true;
+    bool showHair = true;
+    bool showGuides = false;
+    std::string overlayMap{};  ///< map shown in colour over the mesh, or empty
+    float overlayOpacity = 0.65f;
+
+    HairShading shading = HairShading::KajiyaKay;
+    ShadowMode shadows = ShadowMode::Voxel;
+    float diffuse = 0.75f;
+    float specular = 0.35f;
+    float shininess = 60.0f;       ///< exponent p of Kajiya-Kay
+    float shadowAlpha = 0.82f;     ///< light that one layer of hair lets through (seed 004: light = alpha^sum)
+    glm::vec3 lightDirection{0.45f, 0.75f, 0.65f};  ///< towards the key light, space of the camera's azimuth
+    bool lightFollowsCamera = true;
+    float ambient = 0.35f;
+    glm::vec3 background{0.055f, 0.06f, 0.07f};  ///< linear, at the centre
+    int samples = 4;               ///< multisampling, 1 to 4
+    float minPixelWidth = 1.0f;    ///< thinner hair is drawn this wide and more transparent
+    float exposure = 1.0f;
+};
+
+/// Brush circle and hints over the picture, in pixels of the viewport from the top left.
+struct OverlayState {
+    bool showBrush = false;
+    glm::vec2 brushPixel{0.0f};
+    float brushRadius = 0.0f;
+    float brushStrength = 0.0f;
+    std::string text{};  ///< bottom left: counts, milliseconds
+};
+
+}  // namespace whorl
