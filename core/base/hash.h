@@ -2,12 +2,12 @@
 // A 64-bit digest of bytes, for checksums and for "the same hair" proofs. Not for secrets.
 #pragma once
 
+#include "core/base/random.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
-
-#include "core/base/random.h"
 
 namespace whorl {
 

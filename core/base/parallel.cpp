@@ -24,6 +24,8 @@ ThreadLimit::ThreadLimit(unsigned threads) {
     if (threads > 0) m_control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
 }
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(m_control); }
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(m_control);
+}
 
 }  // namespace whorl

@@ -22,10 +22,14 @@ constexpr std::uint64_t randomBits(std::uint32_t seed, std::uint64_t index, std:
 }
 
 /// Uniform in [0, 1), 24 bits.
-constexpr float unitFloat(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
+constexpr float unitFloat(std::uint64_t bits) {
+    return static_cast<float>(bits >> 40) * 0x1p-24f;
+}
 
 /// Uniform in [0, 1), 53 bits.
-constexpr double unitDouble(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double unitDouble(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 /// Uniform in [0, 1) for (seed, index, channel).
 constexpr float randomFloat(std::uint32_t seed, std::uint64_t index, std::uint32_t channel) {

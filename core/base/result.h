@@ -18,7 +18,9 @@ struct Error {
 };
 
 /// What work returns when its Progress was cancelled.
-inline Error cancelledError() { return {"Cancelled.", true}; }
+inline Error cancelledError() {
+    return {"Cancelled.", true};
+}
 
 /// Either a T or an Error. Reading the side that is not there is a broken promise (assert).
 template <class T>

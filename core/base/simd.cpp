@@ -41,15 +41,22 @@ SimdLevel bestSimdLevel() {
     return best;
 }
 
-SimdLevel simdLevel() { return current().load(std::memory_order_relaxed); }
+SimdLevel simdLevel() {
+    return current().load(std::memory_order_relaxed);
+}
 
-void setSimdLevel(SimdLevel level) { current().store(std::min(level, bestSimdLevel()), std::memory_order_relaxed); }
+void setSimdLevel(SimdLevel level) {
+    current().store(std::min(level, bestSimdLevel()), std::memory_order_relaxed);
+}
 
 const char* simdLevelName(SimdLevel level) {
     switch (level) {
-        case SimdLevel::Avx512: return "avx512";
-        case SimdLevel::Avx2: return "avx2";
-        case SimdLevel::Plain: break;
+        case SimdLevel::Avx512:
+            return "avx512";
+        case SimdLevel::Avx2:
+            return "avx2";
+        case SimdLevel::Plain:
+            break;
     }
     return "plain";
 }

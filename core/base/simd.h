@@ -6,8 +6,8 @@
 // WHORL_SIMD_NAMESPACE set to simd_plain, simd_avx2 or simd_avx512:
 //
 //     // frizz.kernel.h, included by the kernel and by its caller
-//     #define WHORL_KERNEL(level) namespace level { void frizz(const FrizzArrays&, std::size_t begin, std::size_t end); }
-//     WHORL_EACH_SIMD_LEVEL(WHORL_KERNEL)
+//     #define WHORL_KERNEL(level) namespace level { void frizz(const FrizzArrays&, std::size_t begin, std::size_t end);
+//     } WHORL_EACH_SIMD_LEVEL(WHORL_KERNEL)
 //
 //     // caller
 //     const auto frizz = WHORL_PICK(frizz);   // the fastest one that this processor has

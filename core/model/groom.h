@@ -2,16 +2,16 @@
 // The Groom: everything that the artist made, as one value.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/base/cow.h"
 #include "core/model/guide_set.h"
 #include "core/model/hair_params.h"
 #include "core/model/map.h"
 #include "core/model/surface_mesh.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace whorl {
 

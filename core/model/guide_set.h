@@ -2,13 +2,14 @@
 // The guides: the curves that the artist combs.
 #pragma once
 
-#include <cstdint>
-#include <glm/vec3.hpp>
-#include <span>
-#include <vector>
-
 #include "core/base/cow.h"
 #include "core/model/surface_mesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace whorl {
 

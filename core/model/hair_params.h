@@ -2,10 +2,10 @@
 // The parameters of the groom and of its groups, each declared once (see core/param/param.h).
 #pragma once
 
+#include "core/param/param.h"
+
 #include <array>
 #include <string_view>
-
-#include "core/param/param.h"
 
 // Sources: HAIR table of seed 000 (Sik, "Fast Random Sampling of Triangular Meshes for Hair Modeling", section 4).
 // Lengths in metres, angles in radians, colours linear.
@@ -23,22 +23,47 @@ struct CountParams {
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
-        visit(ParamInfo{.id = "guides", .label = "Guides", .min = 3, .max = 1e6, .softMax = 5000,
-                        .tip = "Guides that Place Guides spreads over the growing parts.", .logarithmic = true},
+        visit(ParamInfo{.id = "guides",
+                        .label = "Guides",
+                        .min = 3,
+                        .max = 1e6,
+                        .softMax = 5000,
+                        .tip = "Guides that Place Guides spreads over the growing parts.",
+                        .logarithmic = true},
               self.guides);
-        visit(ParamInfo{.id = "hairs", .label = "Hairs", .min = 0, .max = 1e7, .softMax = 1e6,
-                        .tip = "Hairs made when the groom is rendered or exported.", .logarithmic = true},
+        visit(ParamInfo{.id = "hairs",
+                        .label = "Hairs",
+                        .min = 0,
+                        .max = 1e7,
+                        .softMax = 1e6,
+                        .tip = "Hairs made when the groom is rendered or exported.",
+                        .logarithmic = true},
               self.hairs);
-        visit(ParamInfo{.id = "shown_hairs", .label = "Shown hairs", .min = 0, .max = 1e7, .softMax = 2e5,
-                        .tip = "Hairs drawn in the viewport. Fewer is faster.", .logarithmic = true},
+        visit(ParamInfo{.id = "shown_hairs",
+                        .label = "Shown hairs",
+                        .min = 0,
+                        .max = 1e7,
+                        .softMax = 2e5,
+                        .tip = "Hairs drawn in the viewport. Fewer is faster.",
+                        .logarithmic = true},
               self.shownHairs);
-        visit(ParamInfo{.id = "parts", .label = "Parts", .min = 1, .max = 4096, .softMax = 64,
-                        .tip = "Pieces of a package. A renderer makes them on different threads; the hair is the same."},
-              self.parts);
-        visit(ParamInfo{.id = "seed", .label = "Seed", .min = 0, .max = 2147483647, .softMax = 1000,
+        visit(
+            ParamInfo{.id = "parts",
+                      .label = "Parts",
+                      .min = 1,
+                      .max = 4096,
+                      .softMax = 64,
+                      .tip = "Pieces of a package. A renderer makes them on different threads; the hair is the same."},
+            self.parts);
+        visit(ParamInfo{.id = "seed",
+                        .label = "Seed",
+                        .min = 0,
+                        .max = 2147483647,
+                        .softMax = 1000,
                         .tip = "Another seed gives other random roots and noise."},
               self.seed);
-        visit(ParamInfo{.id = "group_map", .label = "Group map",
+        visit(ParamInfo{.id = "group_map",
+                        .label = "Group map",
                         .tip = "Map that picks the group of each root: its value times 255 is the group's number."},
               self.groupMap);
     }
@@ -63,36 +88,67 @@ struct GeneralParams {
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
-        visit(ParamInfo{.id = "segments", .label = "Segments", .min = 1, .max = 100, .softMax = 40,
+        visit(ParamInfo{.id = "segments",
+                        .label = "Segments",
+                        .min = 1,
+                        .max = 100,
+                        .softMax = 40,
                         .tip = "Pieces of each guide and hair of this group. Changing it resamples the guides."},
               self.segments);
-        visit(ParamInfo{.id = "density", .label = "Density", .max = 100, .softMax = 1,
+        visit(ParamInfo{.id = "density",
+                        .label = "Density",
+                        .max = 100,
+                        .softMax = 1,
                         .tip = "How many hairs grow here compared with elsewhere. Zero grows nothing."},
               self.density);
-        visit(ParamInfo{.id = "samples", .label = "Guides a hair", .min = 1, .max = 20,
+        visit(ParamInfo{.id = "samples",
+                        .label = "Guides a hair",
+                        .min = 1,
+                        .max = 20,
                         .tip = "Nearest guides that shape a hair. Few keep locks apart, many make it smooth."},
               self.samples);
-        visit(ParamInfo{.id = "interpolation", .label = "Guide shapes",
+        visit(ParamInfo{.id = "interpolation",
+                        .label = "Guide shapes",
                         .tip = "Rotated: guide shapes turn with the skin between guide and hair. As they are: no turn.",
                         .choices = interpolationNames},
               self.interpolation);
-        visit(ParamInfo{.id = "cut", .label = "Cut", .tip = "Where along itself a hair ends. Zero: no hair."}, self.cut);
-        visit(ParamInfo{.id = "scale", .label = "Length", .max = 100, .softMax = 2,
-                        .tip = "Length compared with the guides."},
-              self.scale);
-        visit(ParamInfo{.id = "random_scale", .label = "Random length",
+        visit(ParamInfo{.id = "cut", .label = "Cut", .tip = "Where along itself a hair ends. Zero: no hair."},
+              self.cut);
+        visit(
+            ParamInfo{
+                .id = "scale", .label = "Length", .max = 100, .softMax = 2, .tip = "Length compared with the guides."},
+            self.scale);
+        visit(ParamInfo{.id = "random_scale",
+                        .label = "Random length",
                         .tip = "Shortens each hair by a random share up to this."},
               self.randomScale);
-        visit(ParamInfo{.id = "root_thickness", .label = "Root thickness", .max = 0.1, .softMax = 0.001, .unit = "mm",
-                        .shownScale = 1000, .tip = "Width at the root."},
+        visit(ParamInfo{.id = "root_thickness",
+                        .label = "Root thickness",
+                        .max = 0.1,
+                        .softMax = 0.001,
+                        .unit = "mm",
+                        .shownScale = 1000,
+                        .tip = "Width at the root."},
               self.rootThickness);
-        visit(ParamInfo{.id = "tip_thickness", .label = "Tip thickness", .max = 0.1, .softMax = 0.001, .unit = "mm",
-                        .shownScale = 1000, .tip = "Width at the tip."},
+        visit(ParamInfo{.id = "tip_thickness",
+                        .label = "Tip thickness",
+                        .max = 0.1,
+                        .softMax = 0.001,
+                        .unit = "mm",
+                        .shownScale = 1000,
+                        .tip = "Width at the tip."},
               self.tipThickness);
-        visit(ParamInfo{.id = "displacement", .label = "Displacement", .min = -1, .max = 1, .softMax = 0.01,
-                        .unit = "mm", .shownScale = 1000, .tip = "Lifts roots along the skin's normal."},
+        visit(ParamInfo{.id = "displacement",
+                        .label = "Displacement",
+                        .min = -1,
+                        .max = 1,
+                        .softMax = 0.01,
+                        .unit = "mm",
+                        .shownScale = 1000,
+                        .tip = "Lifts roots along the skin's normal."},
               self.displacement);
-        visit(ParamInfo{.id = "keep_outside", .label = "Keep outside the skin",
+        visit(ParamInfo{.id = "keep_outside",
+                        .label = "Keep outside the skin",
                         .tip = "Pushes hair that dips into the mesh back out."},
               self.keepOutside);
     }
@@ -114,17 +170,28 @@ struct ColourParams {
     static void each(Self& self, Visit&& visit) {
         visit(ParamInfo{.id = "root", .label = "Root colour", .tip = "Colour at the root."}, self.root);
         visit(ParamInfo{.id = "tip", .label = "Tip colour", .tip = "Colour at the tip."}, self.tip);
-        visit(ParamInfo{.id = "root_opacity", .label = "Root opacity", .tip = "Opacity at the root."}, self.rootOpacity);
+        visit(ParamInfo{.id = "root_opacity", .label = "Root opacity", .tip = "Opacity at the root."},
+              self.rootOpacity);
         visit(ParamInfo{.id = "tip_opacity", .label = "Tip opacity", .tip = "Opacity at the tip."}, self.tipOpacity);
-        visit(ParamInfo{.id = "hue_variation", .label = "Hue variation", .max = 3.14159265, .unit = "degrees",
-                        .shownScale = 57.29577951, .tip = "Turns each hair's hue at random by up to this."},
+        visit(ParamInfo{.id = "hue_variation",
+                        .label = "Hue variation",
+                        .max = 3.14159265,
+                        .unit = "degrees",
+                        .shownScale = 57.29577951,
+                        .tip = "Turns each hair's hue at random by up to this."},
               self.hueVariation);
-        visit(ParamInfo{.id = "value_variation", .label = "Brightness variation",
+        visit(ParamInfo{.id = "value_variation",
+                        .label = "Brightness variation",
                         .tip = "Makes each hair brighter or darker at random by up to this share."},
               self.valueVariation);
-        visit(ParamInfo{.id = "mutant", .label = "Odd hairs' colour", .tip = "Colour of the odd hairs, for grey strands."},
-              self.mutant);
-        visit(ParamInfo{.id = "mutants", .label = "Odd hairs", .unit = "%", .shownScale = 100,
+        visit(
+            ParamInfo{
+                .id = "mutant", .label = "Odd hairs' colour", .tip = "Colour of the odd hairs, for grey strands."},
+            self.mutant);
+        visit(ParamInfo{.id = "mutants",
+                        .label = "Odd hairs",
+                        .unit = "%",
+                        .shownScale = 100,
                         .tip = "Share of hairs with the odd colour."},
               self.mutants);
     }
@@ -139,13 +206,27 @@ struct FrizzParams {
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
-        visit(ParamInfo{.id = "root", .label = "Root amount", .max = 1, .softMax = 0.02, .unit = "mm",
-                        .shownScale = 1000, .tip = "How far frizz moves the root end."},
+        visit(ParamInfo{.id = "root",
+                        .label = "Root amount",
+                        .max = 1,
+                        .softMax = 0.02,
+                        .unit = "mm",
+                        .shownScale = 1000,
+                        .tip = "How far frizz moves the root end."},
               self.root);
-        visit(ParamInfo{.id = "tip", .label = "Tip amount", .max = 1, .softMax = 0.05, .unit = "mm", .shownScale = 1000,
+        visit(ParamInfo{.id = "tip",
+                        .label = "Tip amount",
+                        .max = 1,
+                        .softMax = 0.05,
+                        .unit = "mm",
+                        .shownScale = 1000,
                         .tip = "How far frizz moves the tip."},
               self.tip);
-        visit(ParamInfo{.id = "frequency", .label = "Frequency", .max = 100000, .softMax = 2000, .unit = "per metre",
+        visit(ParamInfo{.id = "frequency",
+                        .label = "Frequency",
+                        .max = 100000,
+                        .softMax = 2000,
+                        .unit = "per metre",
                         .tip = "Noise waves a metre along x, y, z. High: every hair strays its own way."},
               self.frequency);
     }
@@ -160,13 +241,27 @@ struct KinkParams {
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
-        visit(ParamInfo{.id = "root", .label = "Root amount", .max = 1, .softMax = 0.01, .unit = "mm",
-                        .shownScale = 1000, .tip = "How far kink moves vertices near the root."},
+        visit(ParamInfo{.id = "root",
+                        .label = "Root amount",
+                        .max = 1,
+                        .softMax = 0.01,
+                        .unit = "mm",
+                        .shownScale = 1000,
+                        .tip = "How far kink moves vertices near the root."},
               self.root);
-        visit(ParamInfo{.id = "tip", .label = "Tip amount", .max = 1, .softMax = 0.02, .unit = "mm", .shownScale = 1000,
+        visit(ParamInfo{.id = "tip",
+                        .label = "Tip amount",
+                        .max = 1,
+                        .softMax = 0.02,
+                        .unit = "mm",
+                        .shownScale = 1000,
                         .tip = "How far kink moves vertices near the tip."},
               self.tip);
-        visit(ParamInfo{.id = "frequency", .label = "Frequency", .max = 100000, .softMax = 2000, .unit = "per metre",
+        visit(ParamInfo{.id = "frequency",
+                        .label = "Frequency",
+                        .max = 100000,
+                        .softMax = 2000,
+                        .unit = "per metre",
                         .tip = "Noise waves a metre along x, y, z at the rest position."},
               self.frequency);
     }

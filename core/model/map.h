@@ -2,14 +2,15 @@
 // A painted or loaded image over the UVs of the mesh.
 #pragma once
 
-#include <cstdint>
+#include "core/base/cow.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/cow.h"
 
 namespace whorl {
 
@@ -57,7 +58,8 @@ public:
 
     int tileColumns() const { return (m_width + tileSize - 1) / tileSize; }
     int tileRows() const { return (m_height + tileSize - 1) / tileSize; }
-    /// tileSize * tileSize * channels values in `format`, rows of the tile one after another (full tiles also at edges).
+    /// tileSize * tileSize * channels values in `format`, rows of the tile one after another (full tiles also at
+    /// edges).
     const std::vector<std::uint8_t>& tileBytes(int column, int row) const { return *m_tiles[tileIndex(column, row)]; }
     std::vector<std::uint8_t>& editTileBytes(int column, int row) { return m_tiles[tileIndex(column, row)].edit(); }
     bool tileSameAs(int column, int row, const Map& other) const {

@@ -2,9 +2,10 @@
 // The mesh that hair grows from.
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -2,14 +2,15 @@
 // A parameter, declared once: everything that reads or writes parameters goes through these references.
 #pragma once
 
+#include "core/base/result.h"
+
 #include <glm/vec3.hpp>
+
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
-
-#include "core/base/result.h"
 
 // A block of parameters is a plain struct with member defaults and one `each`:
 //
@@ -69,16 +70,16 @@ struct Choice {
 
 /// What a stranger needs to know of one parameter. All texts are literals.
 struct ParamInfo {
-    std::string_view id{};     ///< in JSON and paths; for ever
-    std::string_view label{};  ///< in the editor
-    double min = 0.0;          ///< smallest value accepted
-    double max = 1.0;          ///< largest value accepted
-    double softMax = 0.0;      ///< where the slider ends, if below `max` (0: at `max`)
-    std::string_view unit{};   ///< as shown: "mm", "degrees", "%"; empty for plain numbers
-    double shownScale = 1.0;   ///< shown number = stored number * shownScale
-    std::string_view tip{};    ///< one or two sentences for the artist
+    std::string_view id{};                        ///< in JSON and paths; for ever
+    std::string_view label{};                     ///< in the editor
+    double min = 0.0;                             ///< smallest value accepted
+    double max = 1.0;                             ///< largest value accepted
+    double softMax = 0.0;                         ///< where the slider ends, if below `max` (0: at `max`)
+    std::string_view unit{};                      ///< as shown: "mm", "degrees", "%"; empty for plain numbers
+    double shownScale = 1.0;                      ///< shown number = stored number * shownScale
+    std::string_view tip{};                       ///< one or two sentences for the artist
     std::span<const std::string_view> choices{};  ///< for Choice
-    bool logarithmic = false;  ///< the slider moves by ratio
+    bool logarithmic = false;                     ///< the slider moves by ratio
 };
 
 /// The same for a block.

@@ -2,12 +2,12 @@
 // Parameters by path: "counts/hairs", "groups/crown/frizz/tip", "groups/crown/frizz/tip/map".
 #pragma once
 
+#include "core/base/result.h"
+#include "core/param/param.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/result.h"
-#include "core/param/param.h"
 
 namespace whorl {
 

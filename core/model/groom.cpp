@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/model/groom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace whorl {
+namespace {
+
+bool finite(const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void checkMesh(const SurfaceMesh& mesh, Problems& problems) {
+    if (mesh.triangles.empty()) problems.push_back("The mesh has no triangles.");
+    if (mesh.normals.size() != mesh.positions.size()) {
+        problems.push_back("The mesh has " + std::to_string(mesh.positions.size()) + " vertices but " +
+                           std::to_string(mesh.normals.size()) + " normals.");
+    }
+    if (mesh.cornerUvs.size() != mesh.triangles.size() * 3) {
+        problems.push_back("The mesh has " + std::to_string(mesh.triangles.size()) + " triangles but " +
+                           std::to_string(mesh.cornerUvs.size()) + " corner UVs.");
+    }
+    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::uvec3& t : mesh.triangles) {
+        if (t.x >= vertices || t.y >= vertices || t.z >= vertices) {
+            problems.push_back("A triangle of the mesh refers to a vertex that is not there.");
+            break;
+        }
+    }
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), finite)) {
+        problems.push_back("A vertex of the mesh is not a finite number.");
+    }
+    if (!std::all_of(mesh.normals.begin(), mesh.normals.end(), finite)) {
+        problems.push_back("A normal of the mesh is not a finite number.");
+    }
+    std::uint64_t next = 0;
+    bool inOrder = true;
+    for (const MeshPart& part : mesh.parts) {
+        inOrder = inOrder && part.firstTriangle == next;
+        next += part.triangleCount;
+    }
+    if (!inOrder || next != mesh.triangles.size()) problems.push_back("The parts do not cover the mesh in order.");
+}
+
+void checkGuides(const Groom& groom, Problems& problems) {
+    const auto& groups = *groom.groups;
+    const std::uint32_t triangles = groom.mesh->triangleCount();
+    std::size_t badRoots = 0, badGroups = 0, badCounts = 0, badPoints = 0, repeated = 0;
+    std::set<std::uint32_t> ids;
+    for (std::size_t b = 0; b < groom.guides.blockCount(); ++b) {
+        const GuideBlock& block = groom.guides.block(b);
+        for (std::size_t i = 0; i < block.count(); ++i) {
+            const SurfacePoint& root = block.roots[i];
+            if (root.triangle >= triangles || !(root.u >= 0.0f) || !(root.v >= 0.0f) || !(root.u + root.v <= 1.0001f))
+                ++badRoots;
+            if (!ids.insert(block.ids[i]).second) ++repeated;
+            const std::uint32_t points = block.firstPoint[i + 1] - block.firstPoint[i];
+            if (block.groups[i] >= groups.size()) {
+                ++badGroups;
+            } else if (points != static_cast<std::uint32_t>(groups[block.groups[i]].params.general.segments) + 1) {
+                ++badCounts;
+            }
+        }
+        badPoints += static_cast<std::size_t>(
+            std::count_if(block.points.begin(), block.points.end(), [](const glm::vec3& p) { return !finite(p); }));
+    }
+    const auto say = [&](std::size_t count, const char* what) {
+        if (count > 0) problems.push_back(std::to_string(count) + what);
+    };
+    say(badRoots, " guides do not stand on the mesh.");
+    say(repeated, " guides share their number with another.");
+    say(badGroups, " guides belong to a group that is not there.");
+    say(badCounts, " guides have another number of points than their group.");
+    say(badPoints, " guide points are not finite numbers.");
+}
+
+void checkGroups(const Groom& groom, Problems& problems) {
+    const auto& groups = *groom.groups;
+    if (groups.empty() || groups.size() > Groom::maxGroups) {
+        problems.push_back("A groom has 1 to 30 groups; this one has " + std::to_string(groups.size()) + ".");
+    }
+    const auto checkMap = [&](const std::string& where, const std::string& map) {
+        if (!map.empty() && !groom.maps.find(map)) {
+            problems.push_back(where + " is driven by map \"" + map + "\", which is not there; it counts as white.");
+        }
+    };
+    std::set<std::string> names;
+    for (const Group& group : groups) {
+        if (!names.insert(group.name).second) problems.push_back("Two groups are named \"" + group.name + "\".");
+        HairParams params = group.params;
+        HairParams::each(params, [&](const BlockInfo& block, auto& values) {
+            for (const ParamRef& ref : paramsOf(values)) {
+                if (const std::string* map = paramMap(ref)) {
+                    checkMap("groups/" + group.name + "/" + std::string(block.id) + "/" + std::string(ref.info.id),
+                             *map);
+                }
+            }
+        });
+    }
+    checkMap("counts/group_map", groom.counts->groupMap.name);
+    for (const MeshPart& part : groom.mesh->parts) checkMap("The texture of part " + part.name, part.texture);
+}
+
+}  // namespace
+
+bool Groom::sameAs(const Groom& other) const {
+    return mesh.sameAs(other.mesh) && partSettings.sameAs(other.partSettings) && guides.sameAs(other.guides) &&
+           maps.sameAs(other.maps) && groups.sameAs(other.groups) && counts.sameAs(other.counts);
+}
+
+std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
+    std::size_t bytes = sizeof(Groom) + guides.bytesNotSharedWith(before.guides) + maps.bytesNotSharedWith(before.maps);
+    if (!mesh.sameAs(before.mesh)) {
+        bytes += mesh->positions.size() * sizeof(glm::vec3) * 2 + mesh->triangles.size() * sizeof(glm::uvec3) +
+                 mesh->cornerUvs.size() * sizeof(glm::vec2);
+    }
+    if (!partSettings.sameAs(before.partSettings)) bytes += partSettings->size() * sizeof(PartSettings);
+    if (!groups.sameAs(before.groups)) bytes += groups->size() * sizeof(Group);
+    if (!counts.sameAs(before.counts)) bytes += sizeof(CountParams);
+    return bytes;
+}
+
+int Groom::groupIndex(std::string_view name) const {
+    for (std::size_t i = 0; i < groups->size(); ++i) {
+        if ((*groups)[i].name == name) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+bool Groom::growsHair(std::uint32_t part) const {
+    return part >= partSettings->size() || (*partSettings)[part].growsHair;
+}
+
+Groom makeGroom(SurfaceMesh mesh) {
+    Groom groom;
+    groom.partSettings = Cow<std::vector<PartSettings>>(std::vector<PartSettings>(mesh.parts.size()));
+    groom.mesh = Cow<SurfaceMesh>(std::move(mesh));
+    return groom;
+}
+
+Problems checkGroom(const Groom& groom) {
+    Problems problems;
+    checkMesh(*groom.mesh, problems);
+    if (groom.partSettings->size() != groom.mesh->parts.size()) {
+        problems.push_back("The mesh has " + std::to_string(groom.mesh->parts.size()) + " parts but settings for " +
+                           std::to_string(groom.partSettings->size()) + ".");
+    }
+    checkGroups(groom, problems);
+    checkGuides(groom, problems);
+    return problems;
+}
+
+}  // namespace whorl

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/param/json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace whorl {
+namespace {
+
+using nlohmann::json;
+
+json plainJson(const ParamValue& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag;
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    if (const auto* v = std::get_if<glm::vec3>(&value)) return json::array({v->x, v->y, v->z});
+    return std::get<std::string>(value);
+}
+
+std::optional<ParamValue> valueFromJson(const json& value) {
+    if (value.is_boolean()) return ParamValue(value.get<bool>());
+    if (value.is_number()) return ParamValue(value.get<double>());
+    if (value.is_string()) return ParamValue(value.get<std::string>());
+    if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() && value[2].is_number()) {
+        return ParamValue(glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>()));
+    }
+    return std::nullopt;
+}
+
+bool isMapName(const ParamRef& param) {
+    return std::holds_alternative<MapName*>(param.target);
+}
+
+void setFromJson(const ParamRef& param, const json& stored, const std::string& where, Problems& problems) {
+    const json* plain = &stored;
+    if (stored.is_object()) {
+        std::string* map = paramMap(param);
+        for (const auto& [key, entry] : stored.items()) {
+            if (key != "value" && key != "map") problems.push_back(where + ": unknown key \"" + key + "\"; left out.");
+        }
+        if (map && !isMapName(param) && stored.contains("map") && stored["map"].is_string()) {
+            *map = stored["map"].get<std::string>();
+        } else if (stored.contains("map")) {
+            problems.push_back(where + ": \"map\" does not belong here; left out.");
+        }
+        if (!stored.contains("value")) return;
+        plain = &stored["value"];
+    }
+    const auto value = valueFromJson(*plain);
+    if (!value) {
+        problems.push_back(where + ": not a value; the default is used.");
+        return;
+    }
+    if (const auto set = setParamValue(param, *value); !set) {
+        problems.push_back(where + ": " + set.error().message + " The default is used.");
+    }
+}
+
+}  // namespace
+
+json blockToJson(std::span<const ParamRef> params) {
+    json object = json::object();
+    for (const ParamRef& param : params) {
+        json value = plainJson(paramValue(param));
+        const std::string* map = isMapName(param) ? nullptr : paramMap(param);
+        if (map && !map->empty()) {
+            object[std::string(param.info.id)] = json{{"value", std::move(value)}, {"map", *map}};
+        } else {
+            object[std::string(param.info.id)] = std::move(value);
+        }
+    }
+    return object;
+}
+
+void blockFromJson(std::span<const ParamRef> params, const json& object, const std::string& where, Problems& problems) {
+    if (!object.is_object()) {
+        problems.push_back(where + ": not a block of parameters; defaults are used.");
+        return;
+    }
+    for (const auto& [key, value] : object.items()) {
+        const auto known =
+            std::find_if(params.begin(), params.end(),
+                         [&, name = std::string_view(key)](const ParamRef& p) { return p.info.id == name; });
+        if (known == params.end()) {
+            problems.push_back(where + ": unknown key \"" + key + "\"; left out.");
+        } else {
+            setFromJson(*known, value, where + "/" + key, problems);
+        }
+    }
+}
+
+json hairParamsToJson(const HairParams& params) {
+    json object = json::object();
+    HairParams copy = params;
+    HairParams::each(
+        copy, [&](const BlockInfo& info, auto& block) { object[std::string(info.id)] = blockToJson(paramsOf(block)); });
+    return object;
+}
+
+void hairParamsFromJson(HairParams& params, const json& object, const std::string& where, Problems& problems) {
+    if (!object.is_object()) {
+        problems.push_back(where + ": not parameters; defaults are used.");
+        return;
+    }
+    for (const auto& [key, value] : object.items()) {
+        bool known = false;
+        HairParams::each(params, [&, name = std::string_view(key)](const BlockInfo& info, auto& block) {
+            if (info.id != name) return;
+            known = true;
+            blockFromJson(paramsOf(block), value, where + "/" + std::string(info.id), problems);
+        });
+        if (!known) problems.push_back(where + ": unknown block \"" + key + "\"; left out.");
+    }
+}
+
+json countsToJson(const CountParams& counts) {
+    CountParams copy = counts;
+    return blockToJson(paramsOf(copy));
+}
+
+void countsFromJson(CountParams& counts, const json& object, const std::string& where, Problems& problems) {
+    blockFromJson(paramsOf(counts), object, where, problems);
+}
+
+}  // namespace whorl

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/param/path.h"
+
+#include "core/model/groom.h"
+
+#include <sstream>
+
+namespace whorl {
+namespace {
+
+std::vector<std::string_view> split(std::string_view path) {
+    std::vector<std::string_view> words;
+    for (;;) {
+        const std::size_t slash = path.find('/');
+        words.push_back(path.substr(0, slash));
+        if (slash == std::string_view::npos) return words;
+        path.remove_prefix(slash + 1);
+    }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// A path taken apart: `group` is -1 for counts.
+struct Place {
+    int group = -1;
+    std::string_view block;
+    std::string_view param;
+    bool map = false;
+};
+
+Result<Place> parsePath(const Groom& groom, std::string_view path) {
+    auto words = split(path);
+    Place place;
+    if (words.size() > 1 && words.back() == "map") {
+        place.map = true;
+        words.pop_back();
+    }
+    if (words[0] == "counts" && words.size() == 2) {
+        place.param = words[1];
+        return place;
+    }
+    if (words[0] != "groups" && words[0] != "counts") {
+        return Error{"\"" + std::string(path) + "\": paths begin with counts/ or groups/."};
+    }
+    if (words[0] != "groups" || words.size() != 4) {
+        return Error{"\"" + std::string(path) + "\": write counts/PARAMETER or groups/GROUP/BLOCK/PARAMETER."};
+    }
+    place.group = groom.groupIndex(words[1]);
+    if (place.group < 0) {
+        std::vector<std::string> names;
+        for (const Group& group : *groom.groups) names.push_back(group.name);
+        return Error{"There is no group \"" + std::string(words[1]) + "\"; groups are " + listed(names) + "."};
+    }
+    place.block = words[2];
+    place.param = words[3];
+    return place;
+}
+
+/// Calls `use` with the ParamRef at `place` of a groom's parameters.
+template <class Use>
+Result<void> withParam(CountParams& counts, HairParams* hair, const Place& place, std::string_view path, Use&& use) {
+    std::vector<ParamRef> refs;
+    std::string parent = "counts";
+    if (hair) {
+        std::vector<std::string> blocks;
+        HairParams::each(*hair, [&](const BlockInfo& info, auto& block) {
+            blocks.emplace_back(info.id);
+            if (info.id == place.block) refs = paramsOf(block);
+        });
+        parent = std::string(path.substr(0, path.find('/', path.find('/') + 1)));
+        if (refs.empty()) {
+            return Error{parent + " has no block " + std::string(place.block) + "; blocks are " + listed(blocks) + "."};
+        }
+        parent += "/" + std::string(place.block);
+    } else {
+        refs = paramsOf(counts);
+    }
+    std::vector<std::string> names;
+    for (const ParamRef& ref : refs) {
+        if (ref.info.id == place.param) return use(ref);
+        names.emplace_back(ref.info.id);
+    }
+    return Error{parent + " has no parameter " + std::string(place.param) + "; parameters are " + listed(names) + "."};
+}
+
+Result<void> setMapName(const Groom& groom, const ParamRef& ref, const ParamValue& value) {
+    std::string* map = paramMap(ref);
+    if (!map) return Error{std::string(ref.info.id) + " is not driven by a map."};
+    const auto* name = std::get_if<std::string>(&value);
+    if (!name) return Error{"Give the name of a map, or \"\" for none."};
+    if (!name->empty() && !groom.maps.find(*name)) {
+        std::vector<std::string> names;
+        for (const auto& entry : groom.maps.entries()) names.push_back(entry.name);
+        return Error{"There is no map \"" + *name + "\"" +
+                     (names.empty() ? "; the groom has no maps." : "; maps are " + listed(names) + ".")};
+    }
+    *map = *name;
+    return {};
+}
+
+void resampleGuides(Groom& groom, int group) {
+    const int segments = (*groom.groups)[static_cast<std::size_t>(group)].params.general.segments;
+    for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+        if (groom.guides.group(i) != group) continue;
+        if (groom.guides.points(i).size() == static_cast<std::size_t>(segments) + 1) continue;
+        groom.guides.setPoints(i, resampled(groom.guides.points(i), segments));
+    }
+}
+
+}  // namespace
+
+Result<ParamValue> groomValue(const Groom& groom, std::string_view path) {
+    const auto place = parsePath(groom, path);
+    if (!place) return place.error();
+    CountParams counts = *groom.counts;
+    HairParams hair;
+    if (place->group >= 0) hair = (*groom.groups)[static_cast<std::size_t>(place->group)].params;
+    ParamValue value;
+    const auto found =
+        withParam(counts, place->group >= 0 ? &hair : nullptr, *place, path, [&](const ParamRef& ref) -> Result<void> {
+            if (!place->map) {
+                value = paramValue(ref);
+            } else if (const std::string* map = paramMap(ref)) {
+                value = *map;
+            } else {
+                return Error{std::string(ref.info.id) + " is not driven by a map."};
+            }
+            return {};
+        });
+    if (!found) return found.error();
+    return value;
+}
+
+Result<void> setGroomValue(Groom& groom, std::string_view path, const ParamValue& value) {
+    const auto place = parsePath(groom, path);
+    if (!place) return place.error();
+    // On copies first: a refused value must not unshare anything.
+    CountParams counts = *groom.counts;
+    HairParams hair;
+    if (place->group >= 0) hair = (*groom.groups)[static_cast<std::size_t>(place->group)].params;
+    const auto set = withParam(counts, place->group >= 0 ? &hair : nullptr, *place, path, [&](const ParamRef& ref) {
+        const bool name = place->map || std::holds_alternative<MapName*>(ref.target);
+        return name ? setMapName(groom, ref, value) : setParamValue(ref, value);
+    });
+    if (!set) return set;
+    if (place->group < 0) {
+        if (!(counts == *groom.counts)) groom.counts = Cow<CountParams>(std::move(counts));
+        return {};
+    }
+    const auto index = static_cast<std::size_t>(place->group);
+    if (hair == (*groom.groups)[index].params) return {};
+    const bool resample = hair.general.segments != (*groom.groups)[index].params.general.segments;
+    groom.groups.edit()[index].params = std::move(hair);
+    if (resample) resampleGuides(groom, place->group);
+    return {};
+}
+
+std::vector<std::string> groomPaths(const Groom& groom) {
+    std::vector<std::string> paths;
+    CountParams counts = *groom.counts;
+    for (const ParamRef& ref : paramsOf(counts)) paths.push_back("counts/" + std::string(ref.info.id));
+    for (const Group& group : *groom.groups) {
+        HairParams params = group.params;
+        HairParams::each(params, [&](const BlockInfo& info, auto& block) {
+            for (const ParamRef& ref : paramsOf(block)) {
+                paths.push_back("groups/" + group.name + "/" + std::string(info.id) + "/" + std::string(ref.info.id));
+            }
+        });
+    }
+    return paths;
+}
+
+namespace {
+
+void writeBlock(std::ostream& out, std::string_view path, std::string_view label, std::string_view tip,
+                std::span<const ParamRef> refs) {
+    const auto shown = [](const ParamInfo& info, double value) {
+        return paramText(value * info.shownScale) + (info.unit.empty() ? "" : " " + std::string(info.unit));
+    };
+    out << "## " << label << "\n\n" << tip << "\n\n";
+    out << "| path | name | default | range | map | what it does |\n|---|---|---|---|---|---|\n";
+    for (const ParamRef& ref : refs) {
+        const ParamInfo& info = ref.info;
+        const ParamValue value = paramValue(ref);
+        const auto* number = std::get_if<double>(&value);
+        const bool colour =
+            std::holds_alternative<DrivenColour*>(ref.target) || std::holds_alternative<Colour*>(ref.target);
+        out << "| `" << path << info.id << "` | " << info.label << " | ";
+        out << (number ? shown(info, *number) : paramText(value)) << " | ";
+        if (!info.choices.empty()) {
+            for (std::size_t i = 0; i < info.choices.size(); ++i) out << (i > 0 ? ", " : "") << info.choices[i];
+        } else if (colour) {
+            out << "linear colour";
+        } else if (std::holds_alternative<bool>(value)) {
+            out << "on, off";
+        } else if (!std::holds_alternative<std::string>(value)) {
+            out << shown(info, info.min) << " to " << shown(info, info.max);
+        }
+        const bool driven = paramMap(ref) && !std::holds_alternative<MapName*>(ref.target);
+        out << " | " << (driven ? "yes" : "") << " | " << info.tip << " |\n";
+    }
+    out << "\n";
+}
+
+}  // namespace
+
+std::string parameterReference() {
+    std::ostringstream out;
+    out << "# Parameters\n\nEvery number marked with a map is multiplied by that map's value at the root of each hair. "
+           "`GROUP` stands for the name of a group; a new groom has one, `hair`.\n\n";
+    CountParams counts;
+    writeBlock(out, "counts/", "Counts", "How many of everything, for the whole groom.", paramsOf(counts));
+    HairParams hair;
+    HairParams::each(hair, [&](const BlockInfo& info, auto& block) {
+        writeBlock(out, "groups/GROUP/" + std::string(info.id) + "/", info.label, info.tip, paramsOf(block));
+    });
+    return std::move(out).str();
+}
+
+}  // namespace whorl
