@@ -5,7 +5,8 @@
 #include "core/io/file_steps.h"
 #include "tests/support/shapes.h"
 
-#include <sys/file.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -45,6 +46,16 @@ Result<void> save(const fs::path& file, const std::string& text) {
 
 bool contains(const Result<void>& result, const char* words) {
     return !result && result.error().message.find(words) != std::string::npos;
+}
+
+/// What `body` returns in a child process, whose limits, rights and mounts end with it; -1 when it was killed.
+template <class Body>
+int inChild(Body&& body) {
+    const pid_t child = fork();
+    if (child == 0) _exit(body());
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
@@ -119,36 +130,54 @@ private Q_SLOTS:
         const fs::path folder = testing::scratchFolder("safe-limit");
         const fs::path file = folder / "a";
         put(file, "old");
-        // In a child, so that the limit does not stay. Exit 0: refused with the right sentence.
-        const pid_t child = fork();
-        if (child == 0) {
-            const rlimit limit{50000, 50000};
-            setrlimit(RLIMIT_FSIZE, &limit);
-            _exit(contains(save(file, std::string(1000000, 'z')), "size limit") ? 0 : 1);
-        }
-        int status = 0;
-        waitpid(child, &status, 0);
-        QVERIFY2(WIFEXITED(status), "the size signal ended the program");
-        QCOMPARE(WEXITSTATUS(status), 0);
+        QCOMPARE(inChild([&] {
+                     const rlimit limit{50000, 50000};
+                     setrlimit(RLIMIT_FSIZE, &limit);
+                     return contains(save(file, std::string(1000000, 'z')), "size limit") ? 0 : 1;
+                 }),
+                 0);
         QCOMPARE(textOf(file), std::string("old"));
         QCOMPARE(entries(folder), std::size_t{1});
     }
 
     void fullDisk() {
-        // A file system of its own would need rights; /dev/full is a device and so refused, which is a law as well.
+        const fs::path folder = testing::scratchFolder("safe-full");
+        // A small disk of its own, in a child: 0 as it should be, 1 not, 2 not allowed to make one.
+        const int outcome = inChild([&] {
+            if (unshare(geteuid() == 0 ? CLONE_NEWNS : CLONE_NEWUSER | CLONE_NEWNS) != 0 ||
+                mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+                mount("small", folder.c_str(), "tmpfs", 0, "size=256k") != 0)
+                return 2;
+            const fs::path file = folder / "a";
+            if (!save(file, std::string(100000, 'o'))) return 1;
+            const auto saved = save(file, std::string(1000000, 'z'));
+            return contains(saved, "no space left") && contains(saved, "are free") && entries(folder) == 1 &&
+                           textOf(file) == std::string(100000, 'o')
+                       ? 0
+                       : 1;
+        });
+        if (outcome == 2) QSKIP("making a small disk is not allowed here");
+        QCOMPARE(outcome, 0);
+    }
+
+    void devicesAreRefused() {
         QVERIFY(!SafeFile::create("/dev/full").ok());
         QVERIFY(!SafeFile::create("/dev/null").ok());
     }
 
     void readOnlyFolder() {
-        if (geteuid() == 0) QSKIP("the administrator may write everywhere");
         const fs::path folder = testing::scratchFolder("safe-readonly");
         put(folder / "a", "old");
-        fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
-        const auto saved = save(folder / "a", "new");
+        fs::permissions(folder, fs::perms(0555));
+        const int outcome = inChild([&] {
+            // The administrator may write everywhere, so be somebody else.
+            if (geteuid() == 0 && setuid(65534) != 0) return 2;
+            return contains(save(folder / "b", "new"), "permission") && !save(folder / "a", "new") ? 0 : 1;
+        });
         fs::permissions(folder, fs::perms::owner_all);
-        QVERIFY(contains(saved, "permission"));
+        QCOMPARE(outcome, 0);
         QCOMPARE(textOf(folder / "a"), std::string("old"));
+        QCOMPARE(entries(folder), std::size_t{1});
     }
 
     void missingFolderAndFolders() {
