@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hairs bound to the guides that shape them: worked out once, used at every stroke sample.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/hair/guide_index.h"
+#include "core/hair/roots.h"
+
+namespace whorl {
+
+/// The guides of each hair, `perHair` places a hair of which counts[i] are in use.
+struct Bindings {
+    std::size_t perHair = 0;
+    std::vector<std::uint8_t> counts;
+    std::vector<std::uint32_t> guides;  ///< indices in the GuideSet
+    std::vector<float> matrices;        ///< weight x turn from the guide's surface to the hair's, rows, 9 a place
+};
+
+/// Binds `roots` (empty when cancelled).
+Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const HairRoot> roots, Progress& progress);
+
+}  // namespace whorl

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// From bound hairs to finished curves.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/hair/bindings.h"
+#include "core/hair/guide_shapes.h"
+#include "core/hair/strands.h"
+#include "core/hair/traits.h"
+#include "core/surface/distance_field.h"
+
+namespace whorl {
+
+/// All that hairs are made of. Refers to its parts, which must outlive it; arrays have one entry a root.
+struct HairSources {
+    const Groom& groom;
+    const std::vector<HairRoot>& roots;
+    const Bindings& bindings;
+    const std::vector<HairTraits>& traits;
+    const GuideShapes& shapes;
+    glm::vec3 kinkOffset;
+    const DistanceField* skin;  ///< null: nothing keeps outside
+};
+
+/// Traits of all roots (some left unset when cancelled).
+std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress);
+
+/// Makes room in `strands` for every root that grows a hair and fills in all that is one a hair. Returns the roots
+/// that grow one, in order.
+std::vector<std::uint32_t> layOut(const HairSources& sources, Strands& strands);
+
+/// Fills in the vertices of the strands `which` (places in `grown` and `strands`), from any number of threads.
+/// Unfinished when cancelled.
+void evaluateHairs(const HairSources& sources, std::span<const std::uint32_t> grown,
+                   std::span<const std::uint32_t> which, Strands& strands, Progress& progress);
+
+}  // namespace whorl

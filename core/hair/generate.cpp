@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/generate.h"
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+#include "core/hair/changes.h"
+#include "core/hair/evaluate.h"
+
+namespace whorl {
+namespace {
+
+// Above this many hairs nothing is kept for the next call: it would cost more memory than the hair.
+constexpr std::uint32_t mostKept = 1u << 20;
+
+Error tooLarge(std::uint64_t hairs) {
+    return {std::to_string(hairs) + " hairs do not fit into memory at once; lower the number of hairs or make them in "
+                                    "more parts."};
+}
+
+// Hair of one range, with everything that it was made of.
+struct Batch {
+    HairRange range;
+    std::vector<HairRoot> roots;
+    Bindings bindings;
+    std::vector<HairTraits> traits;
+    std::vector<std::uint32_t> grown;
+    Strands strands;
+};
+
+std::vector<std::uint32_t> allOf(const Strands& strands) {
+    std::vector<std::uint32_t> which(strands.count());
+    std::iota(which.begin(), which.end(), 0u);
+    return which;
+}
+
+}  // namespace
+
+HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partCount) {
+    if (partCount == 0 || part >= partCount) return {count, count};
+    const auto edge = [&](std::uint64_t p) { return static_cast<std::uint32_t>(std::uint64_t{count} * p / partCount); };
+    return {edge(part), edge(std::uint64_t{part} + 1)};
+}
+
+struct Generator::State {
+    Groom groom;        // of the last call that ended well
+    bool valid = false; // groom, sampler, index and shapes belong together
+    std::shared_ptr<const Surface> surface;
+    SubTriangleSampler sampler;
+    GuideIndex index;
+    GuideShapes shapes;
+
+    // Hair kept by generate().
+    bool batchValid = false;
+    std::uint32_t batchCount = 0;
+    Batch batch;
+
+    // What the newest groom changed, worked out by prepare().
+    bool densityChanged = true;
+    bool bindingsChanged = true;
+    bool parametersChanged = true;
+    bool shapesRebuilt = true;
+    std::vector<std::uint8_t> changedBlocks;
+
+    Result<void> prepare(const Groom& next, Progress& progress);
+    const DistanceField* skin();
+    HairSources sourcesOf(const Batch& made, const TraitLookup& lookup);
+    std::uint32_t hairCount(const GenerateOptions& options) const;
+
+    void makeBatch(Batch& made, std::uint32_t count, Progress& progress);
+    void renewBatch(std::uint32_t count, HairRange range, Progress& progress);
+    std::vector<std::uint32_t> strandsOfChangedGuides() const;
+};
+
+// Brings sampler, index and shapes up to `next`, and notes what changed. Cancelled: everything is made anew next time.
+Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
+    const bool known = valid;
+    valid = false;
+    densityChanged = !known || !sameDensity(groom, next);
+    bindingsChanged = !known || !sameBindings(groom, next);
+    parametersChanged = !known || !sameParameters(groom, next);
+    shapesRebuilt = !known || bindingsChanged || !sameSegments(groom, next);
+    changedBlocks.assign(next.guides.blockCount(), 1);
+    for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
+        changedBlocks[b] = !next.guides.blockSameAs(b, groom.guides);
+
+    if (densityChanged) {
+        Result<SubTriangleSampler> built =
+            SubTriangleSampler::build(*next.mesh, DensityLookup(next), SubTriangleSampler::Options{}, progress);
+        if (!built) {
+            batchValid = false;
+            return built.error();
+        }
+        sampler = std::move(*built);
+    }
+    if (bindingsChanged) index = GuideIndex(next);
+    if (shapesRebuilt) shapes = GuideShapes(next);
+    for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
+        if (changedBlocks[b]) shapes.update(next, b);
+    if (surface && !surface->shared.sameAs(next.mesh)) surface.reset();
+    groom = next;
+    valid = true;
+    return {};
+}
+
+const DistanceField* Generator::State::skin() {
+    const bool wanted = std::any_of(groom.groups->begin(), groom.groups->end(),
+                                    [](const Group& group) { return group.params.general.keepOutside; });
+    if (!wanted) return nullptr;
+    if (!surface) surface = std::make_shared<Surface>(groom.mesh);
+    return &surface->skin();
+}
+
+HairSources Generator::State::sourcesOf(const Batch& made, const TraitLookup& lookup) {
+    return {groom, made.roots, made.bindings, made.traits, shapes, lookup.kinkOffset(), skin()};
+}
+
+std::uint32_t Generator::State::hairCount(const GenerateOptions& options) const {
+    return options.hairCount.value_or(static_cast<std::uint32_t>(std::max(groom.counts->hairs, 0)));
+}
+
+// Everything of `made.range` from nothing.
+void Generator::State::makeBatch(Batch& made, std::uint32_t count, Progress& progress) {
+    const DensityLookup density(groom);
+    const RootSource source{*groom.mesh, sampler, density, count, static_cast<std::uint32_t>(groom.counts->seed)};
+    const TraitLookup lookup(groom);
+    made.roots = makeRoots(source, made.range, progress);
+    made.bindings = bindHairs(groom, index, made.roots, progress);
+    made.traits = makeTraits(lookup, made.roots, progress);
+    if (progress.cancelled()) return;
+    const HairSources sources = sourcesOf(made, lookup);
+    made.grown = layOut(sources, made.strands);
+    evaluateHairs(sources, made.grown, allOf(made.strands), made.strands, progress);
+}
+
+std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
+    std::vector<std::uint8_t> changed(groom.guides.count(), 0);
+    for (std::size_t b = 0; b < changedBlocks.size(); ++b) {
+        if (!changedBlocks[b]) continue;
+        std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(groom.guides.firstOfBlock(b)),
+                    groom.guides.block(b).count(), std::uint8_t{1});
+    }
+    std::vector<std::uint32_t> which;
+    const Bindings& bindings = batch.bindings;
+    for (std::uint32_t i = 0; i < batch.grown.size(); ++i) {
+        const std::size_t hair = batch.grown[i];
+        const std::uint32_t* guides = &bindings.guides[hair * bindings.perHair];
+        if (std::any_of(guides, guides + bindings.counts[hair], [&](std::uint32_t g) { return changed[g] != 0; }))
+            which.push_back(i);
+    }
+    return which;
+}
+
+// The kept batch brought up to date: only what the change touches is made again.
+void Generator::State::renewBatch(std::uint32_t count, HairRange range, Progress& progress) {
+    const bool rootsKept = batchValid && !densityChanged && batchCount == count && batch.range.first == range.first &&
+                           batch.range.last == range.last;
+    batchValid = false;
+    batchCount = count;
+    batch.range = range;
+    if (!rootsKept) {
+        makeBatch(batch, count, progress);
+        batchValid = !progress.cancelled();
+        return;
+    }
+    const TraitLookup lookup(groom);
+    if (bindingsChanged) batch.bindings = bindHairs(groom, index, batch.roots, progress);
+    if (parametersChanged) batch.traits = makeTraits(lookup, batch.roots, progress);
+    if (progress.cancelled()) return;
+    const HairSources sources = sourcesOf(batch, lookup);
+    const bool all = bindingsChanged || parametersChanged || shapesRebuilt;
+    if (all) batch.grown = layOut(sources, batch.strands);
+    evaluateHairs(sources, batch.grown, all ? allOf(batch.strands) : strandsOfChangedGuides(), batch.strands, progress);
+    batchValid = !progress.cancelled();
+}
+
+Generator::Generator() : m_state(std::make_unique<State>()) {}
+Generator::~Generator() = default;
+Generator::Generator(Generator&&) noexcept = default;
+Generator& Generator::operator=(Generator&&) noexcept = default;
+
+void Generator::setSurface(std::shared_ptr<const Surface> surface) { m_state->surface = std::move(surface); }
+
+Result<Strands> Generator::generate(const Groom& groom, const GenerateOptions& options, Progress& progress) {
+    State& s = *m_state;
+    HairRange range;
+    try {
+        // The seed moves every root.
+        if (s.groom.counts->seed != groom.counts->seed) s.batchValid = false;
+        if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
+        const std::uint32_t count = s.hairCount(options);
+        range = partRange(count, options.part, options.partCount);
+        if (range.last - range.first <= mostKept) {
+            s.renewBatch(count, range, progress);
+            if (progress.cancelled()) return cancelledError();
+            progress.report(1.0f, "Growing hair");
+            return s.batch.strands;
+        }
+        s.batchValid = false;
+        s.batch = Batch{};
+        Strands all;
+        Result<void> streamed = stream(
+            groom, options, 1u << 16,
+            [&](const Strands& block) {
+                all.append(block);
+                return true;
+            },
+            progress);
+        if (!streamed) return streamed.error();
+        return all;
+    } catch (const std::bad_alloc&) {
+        s.batchValid = false;
+        s.valid = false;
+        return tooLarge(range.last - range.first);
+    }
+}
+
+Result<void> Generator::stream(const Groom& groom, const GenerateOptions& options, std::uint32_t blockSize,
+                               const std::function<bool(const Strands&)>& sink, Progress& progress) {
+    State& s = *m_state;
+    try {
+        // The kept hair does not follow this groom.
+        s.batchValid = false;
+        if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
+        const std::uint32_t count = s.hairCount(options);
+        const HairRange range = partRange(count, options.part, options.partCount);
+        const std::uint32_t step = std::max(blockSize, 1u);
+        Batch block;
+        for (std::uint64_t first = range.first; first < range.last; first += step) {
+            block.range = {static_cast<std::uint32_t>(first),
+                           static_cast<std::uint32_t>(std::min<std::uint64_t>(first + step, range.last))};
+            s.makeBatch(block, count, progress);
+            if (progress.cancelled()) return cancelledError();
+            if (block.strands.count() > 0 && !sink(block.strands)) return cancelledError();
+            progress.report(static_cast<float>(block.range.last - range.first) /
+                                static_cast<float>(range.last - range.first),
+                            "Growing hair");
+        }
+        return {};
+    } catch (const std::bad_alloc&) {
+        s.valid = false;
+        return tooLarge(blockSize);
+    }
+}
+
+Result<std::uint64_t> hairDigest(const Groom& groom, std::uint32_t parts, std::optional<std::uint32_t> hairCount,
+                                 Progress& progress) {
+    Hasher hasher;
+    Generator generator;
+    GenerateOptions options;
+    options.hairCount = hairCount;
+    options.partCount = std::max(parts, 1u);
+    for (options.part = 0; options.part < options.partCount; ++options.part) {
+        const Result<void> made = generator.stream(
+            groom, options, 1u << 14,
+            [&](const Strands& block) {
+                block.addTo(hasher);
+                return true;
+            },
+            progress);
+        if (!made) return made.error();
+    }
+    return hasher.digest();
+}
+
+}  // namespace whorl

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/guide_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nanoflann.hpp>
+
+#include "core/surface/surface_point.h"
+
+namespace whorl {
+namespace {
+
+// What nanoflann reads points through.
+struct RootCloud {
+    std::vector<GuideRoot> roots;
+    std::size_t kdtree_get_point_count() const { return roots.size(); }
+    float kdtree_get_pt(std::size_t index, std::size_t axis) const {
+        return roots[index].position[static_cast<glm::length_t>(axis)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, RootCloud>, RootCloud, 3,
+                                                   std::uint32_t>;
+
+struct Candidate {
+    float squared;
+    std::uint32_t id;
+    std::uint32_t root;
+    bool operator<(const Candidate& other) const {
+        return squared != other.squared ? squared < other.squared : id < other.id;
+    }
+};
+
+// Turns squared distances into weights. `beyond` is the squared distance to the next guide, or below zero.
+void setWeights(std::span<const Candidate> chosen, float beyond, std::span<Neighbour> out) {
+    std::array<double, GuideIndex::maxNeighbours> weights{};
+    double sum = 0;
+    const double reach = std::sqrt(double{beyond});
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const double d = std::sqrt(double{chosen[i].squared});
+        if (chosen[0].squared <= 0.0f)
+            weights[i] = chosen[i].squared <= 0.0f ? 1.0 : 0.0;
+        else if (beyond < 0.0f)
+            weights[i] = 1.0 / (d * d);
+        else
+            weights[i] = (reach - d) * (reach - d) / (reach * reach * d * d);
+        sum += weights[i];
+    }
+    // All as far as the next one: no one is nearer.
+    if (!(sum > 0)) {
+        std::fill_n(weights.begin(), chosen.size(), 1.0);
+        sum = static_cast<double>(chosen.size());
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) out[i].weight = static_cast<float>(weights[i] / sum);
+}
+
+}  // namespace
+
+struct GuideIndex::Tree {
+    RootCloud cloud;
+    std::unique_ptr<KdTree> tree;
+};
+
+GuideIndex::GuideIndex() = default;
+GuideIndex::~GuideIndex() = default;
+GuideIndex::GuideIndex(GuideIndex&&) noexcept = default;
+GuideIndex& GuideIndex::operator=(GuideIndex&&) noexcept = default;
+
+GuideIndex::GuideIndex(const Groom& groom) {
+    for (std::size_t i = 0; i < groom.groups->size(); ++i) m_trees.push_back(std::make_unique<Tree>());
+    std::uint32_t index = 0;
+    for (std::size_t b = 0; b < groom.guides.blockCount(); ++b) {
+        const GuideBlock& block = groom.guides.block(b);
+        for (std::size_t i = 0; i < block.count(); ++i, ++index) {
+            if (block.groups[i] >= m_trees.size() || block.roots[i].triangle >= groom.mesh->triangleCount()) continue;
+            m_trees[block.groups[i]]->cloud.roots.push_back({index, block.ids[i],
+                                                             positionAt(*groom.mesh, block.roots[i]),
+                                                             normalAt(*groom.mesh, block.roots[i])});
+        }
+    }
+    for (const auto& tree : m_trees)
+        if (!tree->cloud.roots.empty())
+            tree->tree = std::make_unique<KdTree>(3, tree->cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
+}
+
+std::span<const GuideRoot> GuideIndex::rootsOf(std::size_t group) const {
+    if (group >= m_trees.size()) return {};
+    return m_trees[group]->cloud.roots;
+}
+
+float rootDistanceSquared(const glm::vec3& position, const glm::vec3& normal, const GuideRoot& guide) {
+    const glm::vec3 between = position - guide.position;
+    const float turned = std::max(0.0f, (1.0f - glm::dot(normal, guide.normal)) * 0.5f);
+    const float factor = 1.0f + 8.0f * turned * turned;
+    return glm::dot(between, between) * factor * factor;
+}
+
+std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, const glm::vec3& normal, int samples,
+                                std::span<Neighbour> out) const {
+    const std::span<const GuideRoot> roots = rootsOf(group);
+    if (roots.empty() || samples < 1) return 0;
+    const std::size_t wanted =
+        std::min({static_cast<std::size_t>(samples), roots.size(), out.size(), maxNeighbours});
+    // One more than wanted, for the cut-off.
+    const std::size_t needed = std::min(wanted + 1, roots.size());
+    const float query[3] = {position.x, position.y, position.z};
+
+    // The tree knows only Euclidean distances, which are never longer than ours. So ask for more and more, until those
+    // not asked for are farther away than the last one needed.
+    constexpr std::size_t atOnce = 64;
+    std::array<std::uint32_t, atOnce> fixedFound;
+    std::array<float, atOnce> fixedSquared;
+    std::array<Candidate, atOnce> fixedCandidates;
+    std::vector<std::uint32_t> moreFound;
+    std::vector<float> moreSquared;
+    std::vector<Candidate> moreCandidates;
+    for (std::size_t asked = std::min(needed + 3, roots.size());; asked = std::min(asked * 2, roots.size())) {
+        std::uint32_t* found = fixedFound.data();
+        float* squared = fixedSquared.data();
+        Candidate* candidates = fixedCandidates.data();
+        if (asked > atOnce) {
+            moreFound.resize(asked);
+            moreSquared.resize(asked);
+            moreCandidates.resize(asked);
+            found = moreFound.data();
+            squared = moreSquared.data();
+            candidates = moreCandidates.data();
+        }
+        m_trees[group]->tree->knnSearch(query, asked, found, squared);
+        for (std::size_t i = 0; i < asked; ++i) {
+            const GuideRoot& root = roots[found[i]];
+            candidates[i] = {rootDistanceSquared(position, normal, root), root.id, found[i]};
+        }
+        std::partial_sort(candidates, candidates + needed, candidates + asked);
+        if (asked < roots.size() && squared[asked - 1] <= candidates[needed - 1].squared) continue;
+        for (std::size_t i = 0; i < wanted; ++i) {
+            const GuideRoot& root = roots[candidates[i].root];
+            out[i] = {root.guide, 0.0f, &root};
+        }
+        setWeights({candidates, wanted}, needed > wanted ? candidates[wanted].squared : -1.0f, out);
+        return wanted;
+    }
+}
+
+bool sameGuideRoots(const GuideSet& a, const GuideSet& b) {
+    if (a.count() != b.count() || a.blockCount() != b.blockCount()) return false;
+    for (std::size_t i = 0; i < a.blockCount(); ++i) {
+        if (a.blockSameAs(i, b)) continue;
+        const GuideBlock &x = a.block(i), &y = b.block(i);
+        if (x.roots != y.roots || x.ids != y.ids || x.groups != y.groups) return false;
+    }
+    return true;
+}
+
+}  // namespace whorl

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which guides shape a hair, and how much each counts.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/model/groom.h"
+
+namespace whorl {
+
+/// A guide's root as hairs see it.
+struct GuideRoot {
+    std::uint32_t guide = 0;  ///< index in the GuideSet
+    std::uint32_t id = 0;
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};
+};
+
+/// One guide of a hair. The weights of a hair's neighbours add up to 1.
+struct Neighbour {
+    std::uint32_t guide = 0;
+    float weight = 0.0f;
+    const GuideRoot* root = nullptr;
+};
+
+/// A KD-tree of guide roots for each group. Immutable once built; any thread may ask.
+class GuideIndex {
+public:
+    static constexpr std::size_t maxNeighbours = 20;
+
+    GuideIndex();
+    /// Guides of groups that the groom does not have are left out.
+    explicit GuideIndex(const Groom& groom);
+    ~GuideIndex();
+    GuideIndex(GuideIndex&&) noexcept;
+    GuideIndex& operator=(GuideIndex&&) noexcept;
+
+    /// Roots of a group, in order of the guides.
+    std::span<const GuideRoot> rootsOf(std::size_t group) const;
+
+    /// The up to `samples` guides of the group that are nearest to a root, nearest first, with Shepard weights
+    /// ((R - d) / (R d))^2, where R is the distance to the next guide, so that weights go smoothly to zero before
+    /// another guide takes a place (Franke and Little; 1 / d^2 when there is no next). At a guide's own root only that
+    /// guide counts. Distances are Euclidean, made up to nine times longer as normals turn apart, so that guides on
+    /// the other side of a thin sheet (an ear) come last. Equal distances go by id. Returns how many were written.
+    std::size_t nearest(std::size_t group, const glm::vec3& position, const glm::vec3& normal, int samples,
+                        std::span<Neighbour> out) const;
+
+private:
+    struct Tree;
+    std::vector<std::unique_ptr<Tree>> m_trees;
+};
+
+/// Squared distance between roots as neighbours are chosen by it: see GuideIndex::nearest.
+float rootDistanceSquared(const glm::vec3& position, const glm::vec3& normal, const GuideRoot& guide);
+
+/// True when both have the same roots, ids and groups in the same order: an index of one serves the other.
+bool sameGuideRoots(const GuideSet& a, const GuideSet& b);
+
+}  // namespace whorl

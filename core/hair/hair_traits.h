@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of one hair, plain floats so that kernels may read them.
+#pragma once
+
+namespace whorl {
+
+/// What is known of a hair besides its root and its guides. Lengths in metres, colours linear with opacity.
+struct HairTraits {
+    float cut;
+    float scale;  ///< random shortening included
+    float displacement;
+    float rootWidth, tipWidth;
+    float frizz[3];  ///< the hair's noise vector, about unit length at most
+    float frizzRoot, frizzTip;
+    float kinkRoot, kinkTip;
+    float kinkFrequency[3];
+    float rootColour[4], tipColour[4];
+};
+
+}  // namespace whorl

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/traits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "core/base/noise.h"
+#include "core/base/polynomials.h"
+#include "core/base/random.h"
+
+namespace whorl {
+namespace {
+
+float finiteOr(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
+
+float random(std::uint32_t seed, std::uint64_t index, HairChannel channel) {
+    return randomFloat(seed, index, static_cast<std::uint32_t>(channel));
+}
+
+// Uniform in -1 to 1.
+float spread(std::uint32_t seed, std::uint64_t index, HairChannel channel) {
+    return 2.0f * random(seed, index, channel) - 1.0f;
+}
+
+glm::vec3 noiseOffset(std::uint32_t seed, std::uint64_t which) {
+    glm::vec3 offset(0.0f);
+    for (int axis = 0; axis < 3; ++axis)
+        offset[axis] = 256.0f * random(seed, which * 3 + static_cast<std::uint64_t>(axis), HairChannel::NoiseOffset);
+    return offset;
+}
+
+// Turns the hue by `angle` about the grey axis and scales by `brightness`; nothing goes below black.
+glm::vec3 varied(const glm::vec3& colour, const SinCos& turn, float brightness) {
+    const double third = 1.0 / 3, root = 0.57735026918962576;
+    const double a = turn.cos + (1 - turn.cos) * third, b = (1 - turn.cos) * third - root * turn.sin,
+                 c = (1 - turn.cos) * third + root * turn.sin;
+    const double x = double{colour.x}, y = double{colour.y}, z = double{colour.z};
+    const glm::vec3 turned(static_cast<float>(a * x + b * y + c * z), static_cast<float>(c * x + a * y + b * z),
+                           static_cast<float>(b * x + c * y + a * z));
+    return glm::max(turned * brightness, glm::vec3(0.0f));
+}
+
+}  // namespace
+
+float TraitLookup::Number::at(glm::vec2 uv) const {
+    const float product = map ? value * map->sample(uv) : value;
+    return std::clamp(finiteOr(product, 0.0f), most < 0.0f ? most : 0.0f, std::abs(most));
+}
+
+glm::vec3 TraitLookup::Vector::at(glm::vec2 uv) const {
+    const glm::vec3 product = map ? value * map->sample(uv) : value;
+    glm::vec3 limited(0.0f);
+    for (int axis = 0; axis < 3; ++axis) limited[axis] = std::clamp(finiteOr(product[axis], 0.0f), 0.0f, 1e5f);
+    return limited;
+}
+
+glm::vec3 TraitLookup::Tint::at(glm::vec2 uv) const {
+    const glm::vec3 product = map ? value * map->sampleColour(uv) : value;
+    glm::vec3 limited(0.0f);
+    for (int axis = 0; axis < 3; ++axis) limited[axis] = std::clamp(finiteOr(product[axis], 0.0f), 0.0f, 1e6f);
+    return limited;
+}
+
+TraitLookup::TraitLookup(const Groom& groom)
+    : m_seed(static_cast<std::uint32_t>(groom.counts->seed)),
+      m_frizzOffset(noiseOffset(m_seed, 0)),
+      m_kinkOffset(noiseOffset(m_seed, 1)) {
+    const auto map = [&](const std::string& name) { return name.empty() ? nullptr : groom.maps.find(name); };
+    // A limit below zero stands for a range on both sides of zero.
+    const auto number = [&](const Driven& d, float most) { return Number{d.value, map(d.map), most}; };
+    const auto vector = [&](const DrivenVector& d) { return Vector{d.value, map(d.map)}; };
+    const auto tint = [&](const DrivenColour& d) { return Tint{d.value, map(d.map)}; };
+    for (const Group& group : *groom.groups) {
+        const HairParams& p = group.params;
+        Entry e;
+        e.cut = number(p.general.cut, 1.0f);
+        e.scale = number(p.general.scale, 100.0f);
+        e.randomScale = number(p.general.randomScale, 1.0f);
+        e.rootThickness = number(p.general.rootThickness, 0.1f);
+        e.tipThickness = number(p.general.tipThickness, 0.1f);
+        e.displacement = number(p.general.displacement, -1.0f);
+        e.rootColour = tint(p.colour.root);
+        e.tipColour = tint(p.colour.tip);
+        e.mutant = p.colour.mutant.value;
+        e.rootOpacity = number(p.colour.rootOpacity, 1.0f);
+        e.tipOpacity = number(p.colour.tipOpacity, 1.0f);
+        e.hueVariation = number(p.colour.hueVariation, 3.14159265f);
+        e.valueVariation = number(p.colour.valueVariation, 1.0f);
+        e.mutants = number(p.colour.mutants, 1.0f);
+        e.frizzRoot = number(p.frizz.root, 1.0f);
+        e.frizzTip = number(p.frizz.tip, 1.0f);
+        e.frizzFrequency = vector(p.frizz.frequency);
+        e.kinkRoot = number(p.kink.root, 1.0f);
+        e.kinkTip = number(p.kink.tip, 1.0f);
+        e.kinkFrequency = vector(p.kink.frequency);
+        m_groups.push_back(e);
+    }
+}
+
+HairTraits TraitLookup::at(const HairRoot& root) const {
+    const Entry& e = m_groups[root.group];
+    HairTraits t{};
+    t.cut = e.cut.at(root.uv);
+    t.scale = e.scale.at(root.uv) * (1.0f - e.randomScale.at(root.uv) * random(m_seed, root.id, HairChannel::Scale));
+    t.displacement = e.displacement.at(root.uv);
+    t.rootWidth = e.rootThickness.at(root.uv);
+    t.tipWidth = e.tipThickness.at(root.uv);
+    setColours(e, root, t);
+    setFrizz(e, root, t);
+    t.kinkRoot = e.kinkRoot.at(root.uv);
+    t.kinkTip = e.kinkTip.at(root.uv);
+    if (t.kinkRoot > 0.0f || t.kinkTip > 0.0f) {
+        const glm::vec3 frequency = e.kinkFrequency.at(root.uv);
+        for (int axis = 0; axis < 3; ++axis) t.kinkFrequency[axis] = frequency[axis];
+    }
+    return t;
+}
+
+void TraitLookup::setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
+    glm::vec3 first = entry.rootColour.at(root.uv), last = entry.tipColour.at(root.uv);
+    if (random(m_seed, root.id, HairChannel::Mutant) < entry.mutants.at(root.uv)) first = last = entry.mutant;
+    const float hue = entry.hueVariation.at(root.uv), value = entry.valueVariation.at(root.uv);
+    if (hue > 0.0f || value > 0.0f) {
+        const SinCos turn = sinCos(double{hue * spread(m_seed, root.id, HairChannel::Hue)});
+        const float brightness = 1.0f + value * spread(m_seed, root.id, HairChannel::Value);
+        first = varied(first, turn, brightness);
+        last = varied(last, turn, brightness);
+    }
+    for (int i = 0; i < 3; ++i) {
+        traits.rootColour[i] = first[i];
+        traits.tipColour[i] = last[i];
+    }
+    traits.rootColour[3] = entry.rootOpacity.at(root.uv);
+    traits.tipColour[3] = entry.tipOpacity.at(root.uv);
+}
+
+void TraitLookup::setFrizz(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
+    traits.frizzRoot = entry.frizzRoot.at(root.uv);
+    traits.frizzTip = entry.frizzTip.at(root.uv);
+    if (traits.frizzRoot <= 0.0f && traits.frizzTip <= 0.0f) return;
+    const glm::vec3 frequency = entry.frizzFrequency.at(root.uv);
+    const glm::vec3 place = root.position * frequency + m_frizzOffset;
+    perlinVector(place.x, place.y, place.z, traits.frizz);
+    // Waves of a millimetre and less are shorter than the distance between roots. There the noise only picks a number
+    // at random for each hair, and a poorly spread one; the hair's own random vector takes over.
+    const float highest = std::max({frequency.x, frequency.y, frequency.z});
+    const float own = smoothStep((highest - 500.0f) / 1500.0f);
+    if (own <= 0.0f) return;
+    const HairChannel channels[3] = {HairChannel::FrizzX, HairChannel::FrizzY, HairChannel::FrizzZ};
+    for (int i = 0; i < 3; ++i)
+        traits.frizz[i] += own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
+}
+
+CutEnd cutEnd(float cut, int segments) {
+    if (!(cut > 0.0f) || segments < 1) return {};
+    const float parameter = std::min(cut, 1.0f) * static_cast<float>(segments);
+    const float whole = std::floor(parameter);
+    const auto kept = static_cast<std::uint32_t>(whole) + 1;
+    // A last piece shorter than this share of a segment would only make a lump.
+    if (parameter - whole > 1e-3f) return {kept + 1, parameter};
+    return kept >= 2 ? CutEnd{kept, whole} : CutEnd{};
+}
+
+}  // namespace whorl

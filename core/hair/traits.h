@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parameters, maps and random numbers say about one hair.
+#pragma once
+
+#include <cstdint>
+
+#include "core/hair/hair_traits.h"
+#include "core/hair/roots.h"
+#include "core/model/groom.h"
+
+namespace whorl {
+
+/// Channels of randomBits that generation uses for a hair besides its root.
+enum class HairChannel : std::uint32_t { Scale = 64, Hue, Value, Mutant, FrizzX, FrizzY, FrizzZ, NoiseOffset };
+
+/// Finds the maps of all parameters once, then answers for any root. Refers to the groom, which must outlive it.
+class TraitLookup {
+public:
+    explicit TraitLookup(const Groom& groom);
+
+    /// Every number is finite and inside its parameter's range, whatever the maps hold.
+    HairTraits at(const HairRoot& root) const;
+    /// Where kink noise starts: depends on the seed only.
+    glm::vec3 kinkOffset() const { return m_kinkOffset; }
+
+private:
+    struct Number {
+        float value = 0.0f;
+        const Map* map = nullptr;
+        float most = 1.0f;
+        float at(glm::vec2 uv) const;
+    };
+    struct Vector {
+        glm::vec3 value{0.0f};
+        const Map* map = nullptr;
+        glm::vec3 at(glm::vec2 uv) const;
+    };
+    struct Tint {
+        glm::vec3 value{0.0f};
+        const Map* map = nullptr;
+        glm::vec3 at(glm::vec2 uv) const;
+    };
+    struct Entry {
+        Number cut, scale, randomScale, rootThickness, tipThickness, displacement;
+        Tint rootColour, tipColour;
+        glm::vec3 mutant{0.0f};
+        Number rootOpacity, tipOpacity, hueVariation, valueVariation, mutants;
+        Number frizzRoot, frizzTip, kinkRoot, kinkTip;
+        Vector frizzFrequency, kinkFrequency;
+    };
+    void setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
+    void setFrizz(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
+
+    std::uint32_t m_seed;
+    glm::vec3 m_frizzOffset;
+    glm::vec3 m_kinkOffset;
+    std::vector<Entry> m_groups;
+};
+
+/// Where a hair of `segments` pieces ends when it is cut at `cut` (0 to 1 along its parameter).
+struct CutEnd {
+    std::uint32_t vertices = 0;  ///< 0: no hair; otherwise at least 2
+    float parameter = 0.0f;      ///< of the last vertex, 0 to segments
+};
+CutEnd cutEnd(float cut, int segments);
+
+}  // namespace whorl
