@@ -28,8 +28,12 @@ static constexpr std::int32_t permutation[512] = {
 #undef WHORL_PERLIN_PERMUTATION
 };
 
-static inline float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
-static inline float mix(float a, float b, float t) { return a + t * (b - a); }
+static inline float fade(float t) {
+    return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+}
+static inline float mix(float a, float b, float t) {
+    return a + t * (b - a);
+}
 
 // Dot product of (x, y, z) with one of twelve edge directions, by the low four bits of `hash`.
 static inline float gradient(std::int32_t hash, float x, float y, float z) {

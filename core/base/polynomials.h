@@ -15,10 +15,13 @@ struct SinCos {
 static inline SinCos sinCos(double angle) {
     // Taylor series of a quarter of the angle, doubled twice.
     const double x = angle * 0.25, q = x * x;
-    double s = x * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880 + q * (-1.0 / 39916800 +
-                    q * (1.0 / 6227020800.0)))))));
-    double c = 1 + q * (-0.5 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 +
-                    q * (1.0 / 479001600.0))))));
+    double s =
+        x * (1 + q * (-1.0 / 6 +
+                      q * (1.0 / 120 +
+                           q * (-1.0 / 5040 + q * (1.0 / 362880 + q * (-1.0 / 39916800 + q * (1.0 / 6227020800.0)))))));
+    double c =
+        1 + q * (-0.5 + q * (1.0 / 24 +
+                             q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 + q * (1.0 / 479001600.0))))));
     for (int i = 0; i < 2; ++i) {
         const double doubled = 2 * s * c;
         c = c * c - s * s;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/bindings.h"
 
-#include <algorithm>
-#include <array>
-
 #include "core/base/parallel.h"
 #include "core/surface/surface_point.h"
+
+#include <algorithm>
+#include <array>
 
 namespace whorl {
 
@@ -13,9 +13,9 @@ Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const 
     const std::vector<Group>& groups = *groom.groups;
     Bindings bindings;
     for (std::size_t g = 0; g < groups.size(); ++g)
-        bindings.perHair = std::max(bindings.perHair, std::min({index.rootsOf(g).size(), GuideIndex::maxNeighbours,
-                                                                static_cast<std::size_t>(std::max(
-                                                                    groups[g].params.general.samples, 0))}));
+        bindings.perHair = std::max(
+            bindings.perHair, std::min({index.rootsOf(g).size(), GuideIndex::maxNeighbours,
+                                        static_cast<std::size_t>(std::max(groups[g].params.general.samples, 0))}));
     const std::size_t places = bindings.perHair;
     bindings.counts.assign(roots.size(), 0);
     bindings.guides.assign(roots.size() * places, 0);
@@ -36,8 +36,7 @@ Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const 
                                            : glm::mat3(1.0f);
                 float* matrix = &bindings.matrices[(i * places + j) * 9];
                 for (int row = 0; row < 3; ++row)
-                    for (int column = 0; column < 3; ++column)
-                        *matrix++ = neighbours[j].weight * turn[column][row];
+                    for (int column = 0; column < 3; ++column) *matrix++ = neighbours[j].weight * turn[column][row];
             }
         }
     });

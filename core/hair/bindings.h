@@ -2,12 +2,12 @@
 // Hairs bound to the guides that shape them: worked out once, used at every stroke sample.
 #pragma once
 
+#include "core/hair/guide_index.h"
+#include "core/hair/roots.h"
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "core/hair/guide_index.h"
-#include "core/hair/roots.h"
 
 namespace whorl {
 

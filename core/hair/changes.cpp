@@ -32,9 +32,8 @@ bool sameDensity(const Groom& a, const Groom& b) {
     if (!a.mesh.sameAs(b.mesh)) return false;
     if (!a.partSettings.sameAs(b.partSettings) && *a.partSettings != *b.partSettings) return false;
     if (a.counts->groupMap != b.counts->groupMap || !sameMap(a, b, a.counts->groupMap.name)) return false;
-    const bool numbers = allGroups(a, b, [](const GeneralParams& x, const GeneralParams& y) {
-        return x.density == y.density;
-    });
+    const bool numbers =
+        allGroups(a, b, [](const GeneralParams& x, const GeneralParams& y) { return x.density == y.density; });
     if (!numbers) return false;
     for (const Group& group : *a.groups)
         if (!sameMap(a, b, group.params.general.density.map)) return false;
@@ -42,9 +41,12 @@ bool sameDensity(const Groom& a, const Groom& b) {
 }
 
 bool sameBindings(const Groom& a, const Groom& b) {
-    return a.mesh.sameAs(b.mesh) && allGroups(a, b, [](const GeneralParams& x, const GeneralParams& y) {
-        return x.samples == y.samples && x.interpolation == y.interpolation;
-    }) && sameGuideRoots(a.guides, b.guides);
+    return a.mesh.sameAs(b.mesh) &&
+           allGroups(a, b,
+                     [](const GeneralParams& x, const GeneralParams& y) {
+                         return x.samples == y.samples && x.interpolation == y.interpolation;
+                     }) &&
+           sameGuideRoots(a.guides, b.guides);
 }
 
 bool sameSegments(const Groom& a, const Groom& b) {

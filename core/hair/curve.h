@@ -2,10 +2,11 @@
 // Catmull-Rom curves of strands: points, tangents, exact boxes.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <span>
-
 #include "core/surface/surface_point.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
 
 // A strand has one piece between each two neighbouring vertices. The first and the last vertex are repeated as the
 // missing neighbours of the end pieces, as renderers do; the curve starts and ends there with the direction of the

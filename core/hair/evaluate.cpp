@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/evaluate.h"
 
-#include <algorithm>
-
 #include "core/base/parallel.h"
 #include "core/base/polynomials.h"
 #include "core/hair/curve.h"
 #include "core/hair/outside.h"
 #include "core/hair/shape.kernel.h"
+
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -71,11 +71,24 @@ private:
             m_surfaceY[i] = root.normal.y;
             m_surfaceZ[i] = root.normal.z;
         }
-        const ShapeArrays arrays{s.shapes.x.data(), s.shapes.y.data(), s.shapes.z.data(), s.shapes.first.data(),
-                                 s.bindings.perHair, s.bindings.counts.data(), s.bindings.guides.data(),
-                                 s.bindings.matrices.data(), s.traits.data(), m_hairs, m_roots, group.stride,
-                                 group.along.data(), group.ease.data(),
-                                 {s.kinkOffset.x, s.kinkOffset.y, s.kinkOffset.z}, m_x.data(), m_y.data(), m_z.data()};
+        const ShapeArrays arrays{s.shapes.x.data(),
+                                 s.shapes.y.data(),
+                                 s.shapes.z.data(),
+                                 s.shapes.first.data(),
+                                 s.bindings.perHair,
+                                 s.bindings.counts.data(),
+                                 s.bindings.guides.data(),
+                                 s.bindings.matrices.data(),
+                                 s.traits.data(),
+                                 m_hairs,
+                                 m_roots,
+                                 group.stride,
+                                 group.along.data(),
+                                 group.ease.data(),
+                                 {s.kinkOffset.x, s.kinkOffset.y, s.kinkOffset.z},
+                                 m_x.data(),
+                                 m_y.data(),
+                                 m_z.data()};
         WHORL_PICK(shapeHairs)(arrays, 0, which.size());
     }
 
@@ -114,8 +127,9 @@ private:
     }
 
     void frame(std::size_t vertices) {
-        const FrameArrays arrays{m_frameX.data(), m_frameY.data(), m_frameZ.data(), m_surfaceX, m_surfaceY, m_surfaceZ,
-                                 vertices, m_normalX.data(), m_normalY.data(), m_normalZ.data()};
+        const FrameArrays arrays{m_frameX.data(),  m_frameY.data(), m_frameZ.data(), m_surfaceX,
+                                 m_surfaceY,       m_surfaceZ,      vertices,        m_normalX.data(),
+                                 m_normalY.data(), m_normalZ.data()};
         WHORL_PICK(frameHairs)(arrays);
     }
 
@@ -123,8 +137,7 @@ private:
         const HairTraits& traits = m_sources.traits[m_grown[strand]];
         const std::size_t first = m_strands.firstVertex[strand];
         const std::size_t vertices = m_strands.firstVertex[strand + 1] - first;
-        const float last =
-            cutEnd(traits.cut, group.segments).parameter / static_cast<float>(group.segments);
+        const float last = cutEnd(traits.cut, group.segments).parameter / static_cast<float>(group.segments);
         const glm::vec4 root(traits.rootColour[0], traits.rootColour[1], traits.rootColour[2], traits.rootColour[3]);
         const glm::vec4 tip(traits.tipColour[0], traits.tipColour[1], traits.tipColour[2], traits.tipColour[3]);
         for (std::size_t v = 0; v < vertices; ++v) {

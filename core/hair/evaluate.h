@@ -2,15 +2,15 @@
 // From bound hairs to finished curves.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/hair/bindings.h"
 #include "core/hair/guide_shapes.h"
 #include "core/hair/strands.h"
 #include "core/hair/traits.h"
 #include "core/surface/distance_field.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace whorl {
 

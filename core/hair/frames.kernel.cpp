@@ -48,8 +48,8 @@ inline void straighten(const Vectors& t, Vectors& r, float least) {
 
 // Carries `r` from point to point: reflected in the plane between the points, then in the one that brings the
 // reflected tangent onto the new one.
-inline void reflectTwice(const float* fromX, const float* fromY, const float* fromZ, const float* toX,
-                         const float* toY, const float* toZ, const Vectors& before, const Vectors& after, Vectors& r) {
+inline void reflectTwice(const float* fromX, const float* fromY, const float* fromZ, const float* toX, const float* toY,
+                         const float* toZ, const Vectors& before, const Vectors& after, Vectors& r) {
     for (int l = 0; l < lanes; ++l) {
         const float vx = toX[l] - fromX[l], vy = toY[l] - fromY[l], vz = toZ[l] - fromZ[l];
         const float c = vx * vx + vy * vy + vz * vz;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
 
+#include "core/hair/changes.h"
+#include "core/hair/evaluate.h"
+
 #include <algorithm>
 #include <new>
 #include <numeric>
-
-#include "core/hair/changes.h"
-#include "core/hair/evaluate.h"
 
 namespace whorl {
 namespace {
@@ -15,8 +15,9 @@ namespace {
 constexpr std::uint32_t mostKept = 1u << 20;
 
 Error tooLarge(std::uint64_t hairs) {
-    return {std::to_string(hairs) + " hairs do not fit into memory at once; lower the number of hairs or make them in "
-                                    "more parts."};
+    return {std::to_string(hairs) +
+            " hairs do not fit into memory at once; lower the number of hairs or make them in "
+            "more parts."};
 }
 
 // Hair of one range, with everything that it was made of.
@@ -44,8 +45,8 @@ HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partC
 }
 
 struct Generator::State {
-    Groom groom;        // of the last call that ended well
-    bool valid = false; // groom, sampler, index and shapes belong together
+    Groom groom;         // of the last call that ended well
+    bool valid = false;  // groom, sampler, index and shapes belong together
     std::shared_ptr<const Surface> surface;
     SubTriangleSampler sampler;
     GuideIndex index;
@@ -180,7 +181,9 @@ Generator::~Generator() = default;
 Generator::Generator(Generator&&) noexcept = default;
 Generator& Generator::operator=(Generator&&) noexcept = default;
 
-void Generator::setSurface(std::shared_ptr<const Surface> surface) { m_state->surface = std::move(surface); }
+void Generator::setSurface(std::shared_ptr<const Surface> surface) {
+    m_state->surface = std::move(surface);
+}
 
 Result<Strands> Generator::generate(const Groom& groom, const GenerateOptions& options, Progress& progress) {
     State& s = *m_state;
@@ -233,9 +236,9 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
             s.makeBatch(block, count, progress);
             if (progress.cancelled()) return cancelledError();
             if (block.strands.count() > 0 && !sink(block.strands)) return cancelledError();
-            progress.report(static_cast<float>(block.range.last - range.first) /
-                                static_cast<float>(range.last - range.first),
-                            "Growing hair");
+            progress.report(
+                static_cast<float>(block.range.last - range.first) / static_cast<float>(range.last - range.first),
+                "Growing hair");
         }
         return {};
     } catch (const std::bad_alloc&) {

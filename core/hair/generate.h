@@ -2,15 +2,15 @@
 // The one generator: what is shown, exported, tested and rendered comes out of here.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
 
 namespace whorl {
 

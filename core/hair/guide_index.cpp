@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/guide_index.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "core/surface/surface_point.h"
+
 #include <glm/geometric.hpp>
 #include <nanoflann.hpp>
 
-#include "core/surface/surface_point.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace whorl {
 namespace {
@@ -25,8 +26,8 @@ struct RootCloud {
     }
 };
 
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, RootCloud>, RootCloud, 3,
-                                                   std::uint32_t>;
+using KdTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, RootCloud>, RootCloud, 3, std::uint32_t>;
 
 struct Candidate {
     float squared;
@@ -79,9 +80,8 @@ GuideIndex::GuideIndex(const Groom& groom) {
         const GuideBlock& block = groom.guides.block(b);
         for (std::size_t i = 0; i < block.count(); ++i, ++index) {
             if (block.groups[i] >= m_trees.size() || block.roots[i].triangle >= groom.mesh->triangleCount()) continue;
-            m_trees[block.groups[i]]->cloud.roots.push_back({index, block.ids[i],
-                                                             positionAt(*groom.mesh, block.roots[i]),
-                                                             normalAt(*groom.mesh, block.roots[i])});
+            m_trees[block.groups[i]]->cloud.roots.push_back(
+                {index, block.ids[i], positionAt(*groom.mesh, block.roots[i]), normalAt(*groom.mesh, block.roots[i])});
         }
     }
     for (const auto& tree : m_trees)
@@ -105,8 +105,7 @@ std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, co
                                 std::span<Neighbour> out) const {
     const std::span<const GuideRoot> roots = rootsOf(group);
     if (roots.empty() || samples < 1) return 0;
-    const std::size_t wanted =
-        std::min({static_cast<std::size_t>(samples), roots.size(), out.size(), maxNeighbours});
+    const std::size_t wanted = std::min({static_cast<std::size_t>(samples), roots.size(), out.size(), maxNeighbours});
     // One more than wanted, for the cut-off.
     const std::size_t needed = std::min(wanted + 1, roots.size());
     const float query[3] = {position.x, position.y, position.z};

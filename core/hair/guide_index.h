@@ -2,13 +2,14 @@
 // Which guides shape a hair, and how much each counts.
 #pragma once
 
-#include <cstdint>
+#include "core/model/groom.h"
+
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
-
-#include "core/model/groom.h"
 
 namespace whorl {
 

@@ -2,10 +2,10 @@
 // The guides' points as kernels read them.
 #pragma once
 
+#include "core/model/groom.h"
+
 #include <cstdint>
 #include <vector>
-
-#include "core/model/groom.h"
 
 namespace whorl {
 

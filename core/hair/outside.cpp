@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/outside.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
+
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -27,7 +28,9 @@ glm::vec3 lastOutside(const DistanceField& skin, const glm::vec3& from, const gl
 
 }  // namespace
 
-float skinClearance(const DistanceField& skin) { return 0.25f * skin.spacing(); }
+float skinClearance(const DistanceField& skin) {
+    return 0.25f * skin.spacing();
+}
 
 void keepOutside(const DistanceField& skin, std::span<glm::vec3> points, std::span<const float> ease) {
     const float deep = -0.9f * skin.band();

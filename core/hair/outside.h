@@ -2,10 +2,11 @@
 // Keeps hair out of the head.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <span>
-
 #include "core/surface/distance_field.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
 
 namespace whorl {
 

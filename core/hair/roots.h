@@ -2,14 +2,15 @@
 // The places that hairs grow from.
 #pragma once
 
-#include <cstdint>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <vector>
-
 #include "core/hair/generate.h"
 #include "core/sampling/density.h"
 #include "core/sampling/sub_triangle_sampler.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace whorl {
 

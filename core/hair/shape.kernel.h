@@ -2,11 +2,11 @@
 // Kernels that give hairs their shape. See core/base/simd.h.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "core/base/simd.h"
 #include "core/hair/hair_traits.h"
+
+#include <cstddef>
+#include <cstdint>
 
 namespace whorl {
 
@@ -51,12 +51,12 @@ struct FrameArrays {
     float* normalZ;
 };
 
-#define WHORL_SHAPE_KERNELS(level)                                                                   \
-    namespace level {                                                                                \
-    /* Interpolation, scale, kink and frizz of hairs [begin, end) of the wanted ones. */             \
-    void shapeHairs(const ShapeArrays& arrays, std::size_t begin, std::size_t end);                  \
-    /* Unit normals by double reflection (Wang et al. 2008), the first from the skin's normal. */    \
-    void frameHairs(const FrameArrays& arrays);                                                      \
+#define WHORL_SHAPE_KERNELS(level)                                                                \
+    namespace level {                                                                             \
+    /* Interpolation, scale, kink and frizz of hairs [begin, end) of the wanted ones. */          \
+    void shapeHairs(const ShapeArrays& arrays, std::size_t begin, std::size_t end);               \
+    /* Unit normals by double reflection (Wang et al. 2008), the first from the skin's normal. */ \
+    void frameHairs(const FrameArrays& arrays);                                                   \
     }
 WHORL_EACH_SIMD_LEVEL(WHORL_SHAPE_KERNELS)
 #undef WHORL_SHAPE_KERNELS

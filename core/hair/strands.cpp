@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/strands.h"
 
-#include <algorithm>
-
 #include "core/base/parallel.h"
 #include "core/hair/curve.h"
+
+#include <algorithm>
 
 namespace whorl {
 namespace {

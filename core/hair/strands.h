@@ -2,14 +2,15 @@
 // Generated hair, as it is drawn, hashed, exported and handed to renderers.
 #pragma once
 
-#include <cstdint>
+#include "core/base/hash.h"
+#include "core/surface/surface_point.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <vector>
 
-#include "core/base/hash.h"
-#include "core/surface/surface_point.h"
+#include <cstdint>
+#include <vector>
 
 namespace whorl {
 

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/traits.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-
 #include "core/base/noise.h"
 #include "core/base/polynomials.h"
 #include "core/base/random.h"
 
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
 namespace whorl {
 namespace {
 
-float finiteOr(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
+float finiteOr(float value, float otherwise) {
+    return std::isfinite(value) ? value : otherwise;
+}
 
 float random(std::uint32_t seed, std::uint64_t index, HairChannel channel) {
     return randomFloat(seed, index, static_cast<std::uint32_t>(channel));
@@ -66,7 +69,10 @@ TraitLookup::TraitLookup(const Groom& groom)
     : m_seed(static_cast<std::uint32_t>(groom.counts->seed)),
       m_frizzOffset(noiseOffset(m_seed, 0)),
       m_kinkOffset(noiseOffset(m_seed, 1)) {
-    const auto map = [&](const std::string& name) { return name.empty() ? nullptr : groom.maps.find(name); };
+    const auto map = [&](const std::string& name) -> const Map* {
+        const Map* found = name.empty() ? nullptr : groom.maps.find(name);
+        return found && !found->empty() ? found : nullptr;
+    };
     // A limit below zero stands for a range on both sides of zero.
     const auto number = [&](const Driven& d, float most) { return Number{d.value, map(d.map), most}; };
     const auto vector = [&](const DrivenVector& d) { return Vector{d.value, map(d.map)}; };

@@ -2,11 +2,11 @@
 // What the parameters, maps and random numbers say about one hair.
 #pragma once
 
-#include <cstdint>
-
 #include "core/hair/hair_traits.h"
 #include "core/hair/roots.h"
 #include "core/model/groom.h"
+
+#include <cstdint>
 
 namespace whorl {
 
