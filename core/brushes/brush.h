@@ -65,6 +65,9 @@ struct StrokePoint {
     float pressure = 1.0f;  ///< 0 to 1
 };
 
+/// What one stroke remembers for its brush and the brush's mirror image (index of the guides, texels under way).
+struct StrokeScratch;
+
 /// What a brush gets at every step; already spaced, mirrored and weighted by pressure.
 struct BrushStep {
     Groom& groom;                   ///< edited in place
@@ -76,7 +79,9 @@ struct BrushStep {
     std::optional<SurfaceHit> hit;  ///< the skin under the cursor
     float radiusPixels = 0.0f;      ///< after pressure
     float strength = 0.0f;          ///< after pressure
-    bool mirrored = false;          ///< this is the mirror image: view and pixels are reflected already
+    bool mirrored = false;          ///< this is the mirror image: the view is reflected already, pixels stay the same
+    StrokeScratch* scratch = nullptr;  ///< shared by both; never null in a step
+    bool changed = false;           ///< the brush says here whether it changed the groom
 };
 
 /// One stroke's worth of brush. Made anew for each stroke.
@@ -98,7 +103,8 @@ struct BrushInfo {
     std::string_view tip;       ///< one or two sentences
     std::string_view undoText;  ///< "Comb guides"
     bool paintsMap = false;
-    std::unique_ptr<Brush> (*make)();
+    float spacing = 0.1f;       ///< from step to step, in radii; never less than one pixel
+    std::unique_ptr<Brush> (*make)() = nullptr;
 };
 
 /// All brushes in the order of the toolbar.
@@ -124,17 +130,21 @@ public:
 
 private:
     Stroke() = default;
-    void stepAt(glm::vec2 previous, glm::vec2 pixel, float pressure);
+    bool stepAt(glm::vec2 previous, glm::vec2 pixel, float pressure);
+    bool stepOn(Brush& brush, const StrokeView& view, bool mirrored, glm::vec2 previous, glm::vec2 pixel, float pressure);
 
     const BrushInfo* m_info = nullptr;
     std::unique_ptr<Brush> m_brush;
     std::unique_ptr<Brush> m_mirrorBrush;
     Groom m_groom;
     std::shared_ptr<const Surface> m_surface;
+    std::shared_ptr<StrokeScratch> m_scratch;
     StrokeView m_view;
+    StrokeView m_mirrorView;
     BrushSettings m_settings;
-    std::optional<StrokePoint> m_last;
-    float m_distanceToNext = 0.0f;
+    std::optional<StrokePoint> m_last;     // the newest event
+    glm::vec2 m_lastStep{0.0f};            // centre of the newest step
+    double m_distanceToNext = 0.0;         // pixels from m_last to the next step
 };
 
 }  // namespace whorl

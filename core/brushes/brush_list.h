@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The brushes' makers, one a source file; brushes.cpp names them in the order of the toolbar.
+#pragma once
+
+#include <memory>
+
+#include "core/brushes/brush.h"
+
+namespace whorl {
+
+std::unique_ptr<Brush> makeComb();
+std::unique_ptr<Brush> makeScissors();
+std::unique_ptr<Brush> makeGrow();
+std::unique_ptr<Brush> makeSmooth();
+std::unique_ptr<Brush> makePuff();
+std::unique_ptr<Brush> makePlace();
+std::unique_ptr<Brush> makeDelete();
+std::unique_ptr<Brush> makePaint();
+
+}  // namespace whorl

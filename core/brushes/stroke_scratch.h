@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one stroke remembers between steps, for its brush and the brush's mirror image.
+#pragma once
+
+#include <memory>
+
+#include "core/brushes/guide_index.h"
+#include "core/brushes/paint_canvas.h"
+
+namespace whorl {
+
+struct StrokeScratch {
+    GuideIndex guides;
+    std::unique_ptr<PaintCanvas> canvas;  ///< made by paint brushes at their first step
+};
+
+}  // namespace whorl
