@@ -2,18 +2,19 @@
 // A brush turns a groom into another, step by step along a stroke.
 #pragma once
 
+#include "core/base/result.h"
+#include "core/model/groom.h"
+#include "core/surface/surface.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include "core/base/result.h"
-#include "core/model/groom.h"
-#include "core/surface/surface.h"
 
 // A brush is one file core/brushes/NAME.cpp and one line in brushes.cpp. What all brushes share is done once in
 // stroke.h: spacing, falloff, pressure, mirror, reach. Button, shortcut, tooltip, help page, script name and the law
@@ -45,18 +46,18 @@ enum class Reach : std::uint8_t {
 
 /// What the artist set for brushes; the editor keeps it beside the groom.
 struct BrushSettings {
-    float radiusPixels = 50.0f;   ///< 1 to 2000
-    float strength = 0.5f;        ///< 0 to 1
-    float value = 1.0f;           ///< what paint brushes paint, 0 to 1
+    float radiusPixels = 50.0f;  ///< 1 to 2000
+    float strength = 0.5f;       ///< 0 to 1
+    float value = 1.0f;          ///< what paint brushes paint, 0 to 1
     Reach reach = Reach::Projected;
-    bool mirrorX = false;         ///< does the same on the other side of x = 0
-    bool frontOnly = true;        ///< leaves guides alone whose root faces away or is hidden behind the mesh
-    bool keepLength = true;       ///< combing keeps the length of every segment
-    bool keepOutside = true;      ///< combing keeps guides out of the skin
+    bool mirrorX = false;     ///< does the same on the other side of x = 0
+    bool frontOnly = true;    ///< leaves guides alone whose root faces away or is hidden behind the mesh
+    bool keepLength = true;   ///< combing keeps the length of every segment
+    bool keepOutside = true;  ///< combing keeps guides out of the skin
     bool pressureSize = false;
     bool pressureStrength = true;
-    bool invert = false;          ///< Ctrl: the brush's opposite (grow for cut, erase for paint)
-    std::string map{};            ///< map that paint brushes paint; must be a data map of the groom
+    bool invert = false;  ///< Ctrl: the brush's opposite (grow for cut, erase for paint)
+    std::string map{};    ///< map that paint brushes paint; must be a data map of the groom
 };
 
 /// One place of the pointer on the way.
@@ -70,18 +71,18 @@ struct StrokeScratch;
 
 /// What a brush gets at every step; already spaced, mirrored and weighted by pressure.
 struct BrushStep {
-    Groom& groom;                   ///< edited in place
+    Groom& groom;  ///< edited in place
     const Surface& surface;
     const StrokeView& view;
     const BrushSettings& settings;
-    glm::vec2 pixel{0.0f};          ///< centre of the brush now
-    glm::vec2 previousPixel{0.0f};  ///< centre at the last step
-    std::optional<SurfaceHit> hit;  ///< the skin under the cursor
-    float radiusPixels = 0.0f;      ///< after pressure
-    float strength = 0.0f;          ///< after pressure
-    bool mirrored = false;          ///< this is the mirror image: the view is reflected already, pixels stay the same
+    glm::vec2 pixel{0.0f};            ///< centre of the brush now
+    glm::vec2 previousPixel{0.0f};    ///< centre at the last step
+    std::optional<SurfaceHit> hit{};  ///< the skin under the cursor
+    float radiusPixels = 0.0f;        ///< after pressure
+    float strength = 0.0f;            ///< after pressure
+    bool mirrored = false;            ///< this is the mirror image: the view is reflected already, pixels stay the same
     StrokeScratch* scratch = nullptr;  ///< shared by both; never null in a step
-    bool changed = false;           ///< the brush says here whether it changed the groom
+    bool changed = false;              ///< the brush says here whether it changed the groom
 };
 
 /// One stroke's worth of brush. Made anew for each stroke.
@@ -103,7 +104,7 @@ struct BrushInfo {
     std::string_view tip;       ///< one or two sentences
     std::string_view undoText;  ///< "Comb guides"
     bool paintsMap = false;
-    float spacing = 0.1f;       ///< from step to step, in radii; never less than one pixel
+    float spacing = 0.1f;  ///< from step to step, in radii; never less than one pixel
     std::unique_ptr<Brush> (*make)() = nullptr;
 };
 
@@ -131,7 +132,8 @@ public:
 private:
     Stroke() = default;
     bool stepAt(glm::vec2 previous, glm::vec2 pixel, float pressure);
-    bool stepOn(Brush& brush, const StrokeView& view, bool mirrored, glm::vec2 previous, glm::vec2 pixel, float pressure);
+    bool stepOn(Brush& brush, const StrokeView& view, bool mirrored, glm::vec2 previous, glm::vec2 pixel,
+                float pressure);
 
     const BrushInfo* m_info = nullptr;
     std::unique_ptr<Brush> m_brush;
@@ -142,9 +144,9 @@ private:
     StrokeView m_view;
     StrokeView m_mirrorView;
     BrushSettings m_settings;
-    std::optional<StrokePoint> m_last;     // the newest event
-    glm::vec2 m_lastStep{0.0f};            // centre of the newest step
-    double m_distanceToNext = 0.0;         // pixels from m_last to the next step
+    std::optional<StrokePoint> m_last;  // the newest event
+    glm::vec2 m_lastStep{0.0f};         // centre of the newest step
+    double m_distanceToNext = 0.0;      // pixels from m_last to the next step
 };
 
 }  // namespace whorl

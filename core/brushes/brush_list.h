@@ -2,9 +2,9 @@
 // The brushes' makers, one a source file; brushes.cpp names them in the order of the toolbar.
 #pragma once
 
-#include <memory>
-
 #include "core/brushes/brush.h"
+
+#include <memory>
 
 namespace whorl {
 

@@ -1,36 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-
 #include "core/brushes/brush_list.h"
+
+#include <array>
 
 namespace whorl {
 
 std::span<const BrushInfo> brushes() {
     static const std::array list{
-        BrushInfo{.id = "comb", .label = "Comb", .shortcut = "C",
+        BrushInfo{.id = "comb",
+                  .label = "Comb",
+                  .shortcut = "C",
                   .tip = "Moves the guides under the brush with the pointer; the hair beyond follows. Lengths stay.",
-                  .undoText = "Comb guides", .spacing = 0.04f, .make = makeComb},
-        BrushInfo{.id = "scissors", .label = "Scissors", .shortcut = "X",
+                  .undoText = "Comb guides",
+                  .spacing = 0.04f,
+                  .make = makeComb},
+        BrushInfo{.id = "scissors",
+                  .label = "Scissors",
+                  .shortcut = "X",
                   .tip = "Cuts guides where they enter the brush. With Ctrl they grow instead.",
-                  .undoText = "Cut guides", .spacing = 0.1f, .make = makeScissors},
-        BrushInfo{.id = "grow", .label = "Grow", .shortcut = "G",
+                  .undoText = "Cut guides",
+                  .spacing = 0.1f,
+                  .make = makeScissors},
+        BrushInfo{.id = "grow",
+                  .label = "Grow",
+                  .shortcut = "G",
                   .tip = "Lengthens the guides under the brush. With Ctrl it shortens them.",
-                  .undoText = "Grow guides", .spacing = 0.1f, .make = makeGrow},
-        BrushInfo{.id = "smooth", .label = "Smooth", .shortcut = "S",
+                  .undoText = "Grow guides",
+                  .spacing = 0.1f,
+                  .make = makeGrow},
+        BrushInfo{.id = "smooth",
+                  .label = "Smooth",
+                  .shortcut = "S",
                   .tip = "Straightens bends of the guides under the brush. Lengths stay.",
-                  .undoText = "Smooth guides", .spacing = 0.1f, .make = makeSmooth},
-        BrushInfo{.id = "puff", .label = "Puff", .shortcut = "U",
+                  .undoText = "Smooth guides",
+                  .spacing = 0.1f,
+                  .make = makeSmooth},
+        BrushInfo{.id = "puff",
+                  .label = "Puff",
+                  .shortcut = "U",
                   .tip = "Stands guides up along the skin's normal. With Ctrl it lays them flat.",
-                  .undoText = "Puff guides", .spacing = 0.1f, .make = makePuff},
-        BrushInfo{.id = "place", .label = "Place guides", .shortcut = "A",
+                  .undoText = "Puff guides",
+                  .spacing = 0.1f,
+                  .make = makePuff},
+        BrushInfo{.id = "place",
+                  .label = "Place guides",
+                  .shortcut = "A",
                   .tip = "Adds guides a brush radius apart, shaped like their neighbours. With Ctrl it deletes them.",
-                  .undoText = "Place guides", .spacing = 0.1f, .make = makePlace},
-        BrushInfo{.id = "delete", .label = "Delete guides", .shortcut = "D",
+                  .undoText = "Place guides",
+                  .spacing = 0.1f,
+                  .make = makePlace},
+        BrushInfo{.id = "delete",
+                  .label = "Delete guides",
+                  .shortcut = "D",
                   .tip = "Deletes the guides whose roots are under the brush.",
-                  .undoText = "Delete guides", .spacing = 0.1f, .make = makeDelete},
-        BrushInfo{.id = "paint", .label = "Paint", .shortcut = "P",
+                  .undoText = "Delete guides",
+                  .spacing = 0.1f,
+                  .make = makeDelete},
+        BrushInfo{.id = "paint",
+                  .label = "Paint",
+                  .shortcut = "P",
                   .tip = "Paints the chosen map on the model. With Ctrl it erases.",
-                  .undoText = "Paint map", .paintsMap = true, .spacing = 0.15f, .make = makePaint},
+                  .undoText = "Paint map",
+                  .paintsMap = true,
+                  .spacing = 0.15f,
+                  .make = makePaint},
     };
     return list;
 }
@@ -48,7 +81,9 @@ float brushFalloff(float distance) {
     return t * t;
 }
 
-Result<void> Brush::begin(const Groom&, const BrushSettings&) { return {}; }
+Result<void> Brush::begin(const Groom&, const BrushSettings&) {
+    return {};
+}
 void Brush::end(Groom&, const Surface&, const BrushSettings&) {}
 
 }  // namespace whorl

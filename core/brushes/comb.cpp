@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <glm/geometric.hpp>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/guide_brush.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -55,6 +56,8 @@ class CombBrush : public GuideBrush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makeComb() { return std::make_unique<CombBrush>(); }
+std::unique_ptr<Brush> makeComb() {
+    return std::make_unique<CombBrush>();
+}
 
 }  // namespace whorl

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/constraints.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace whorl {
 namespace {
@@ -69,9 +70,7 @@ glm::vec3 placeNext(const glm::vec3& previous, const glm::vec3& target, const gl
     if (glm::dot(up, up) == 0.0f) up = skin.skin->gradient(best);
     if (glm::dot(up, up) > 0.0f) {
         const glm::vec3 flat = (best - previous) / std::max(length, 1e-30f);
-        const auto turned = [&](float t) {
-            return previous + scaledTo(flat * (1.0f - t) + up * t, length, up);
-        };
+        const auto turned = [&](float t) { return previous + scaledTo(flat * (1.0f - t) + up * t, length, up); };
         const float upright = skin.skin->distance(turned(1.0f));
         if (upright >= asked) {
             float low = 0.0f, high = 1.0f;
@@ -102,7 +101,8 @@ void settle(std::span<glm::vec3> points, std::span<const glm::vec3> original, co
 
 float curveLength(std::span<const glm::vec3> points) {
     double length = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) length += static_cast<double>(glm::length(points[i] - points[i - 1]));
+    for (std::size_t i = 1; i < points.size(); ++i)
+        length += static_cast<double>(glm::length(points[i] - points[i - 1]));
     return static_cast<float>(length);
 }
 

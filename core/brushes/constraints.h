@@ -2,10 +2,11 @@
 // What every change of a guide's shape must respect: segment lengths, and staying out of the skin.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <span>
-
 #include "core/surface/surface.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
 
 namespace whorl {
 

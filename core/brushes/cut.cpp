@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/cut.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
+
+#include <algorithm>
 
 namespace whorl {
 
-float stubLength(const Surface& surface) { return glm::length(surface.bounds.size()) * 0.005f; }
-float longestLength(const Surface& surface) { return glm::length(surface.bounds.size()) * 4.0f; }
+float stubLength(const Surface& surface) {
+    return glm::length(surface.bounds.size()) * 0.005f;
+}
+float longestLength(const Surface& surface) {
+    return glm::length(surface.bounds.size()) * 4.0f;
+}
 
 void withLength(std::span<const glm::vec3> from, float length, std::span<glm::vec3> out) {
     out[0] = from[0];

@@ -2,10 +2,11 @@
 // Shortening and lengthening a curve along itself.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <span>
-
 #include "core/brushes/screen.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
 
 namespace whorl {
 

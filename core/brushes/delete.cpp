@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vector>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/guide_brush.h"
 #include "core/brushes/stroke_scratch.h"
+
+#include <vector>
 
 namespace whorl {
 namespace {
@@ -32,6 +32,8 @@ class DeleteBrush : public Brush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makeDelete() { return std::make_unique<DeleteBrush>(); }
+std::unique_ptr<Brush> makeDelete() {
+    return std::make_unique<DeleteBrush>();
+}
 
 }  // namespace whorl

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/cut.h"
 #include "core/brushes/guide_brush.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace whorl {
 namespace {
@@ -40,6 +40,8 @@ class GrowBrush : public GuideBrush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makeGrow() { return std::make_unique<GrowBrush>(); }
+std::unique_ptr<Brush> makeGrow() {
+    return std::make_unique<GrowBrush>();
+}
 
 }  // namespace whorl

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/guide_brush.h"
 
-#include <algorithm>
-#include <cstring>
-
 #include "core/base/parallel.h"
 #include "core/brushes/stroke_scratch.h"
+
+#include <algorithm>
+#include <cstring>
 
 namespace whorl {
 
 std::optional<BrushArea> brushArea(BrushStep& step) {
     BrushArea area{ScreenFrame(step.view), step.settings.reach, step.pixel, step.radiusPixels, {}, 0.0f};
     if (area.reach == Reach::Projected) return area;
-    const std::optional<glm::vec3> hair =
-        step.scratch->guides.frontPoint(step.groom, step.surface, area.frame, step.pixel,
-                                        std::min(step.radiusPixels, 12.0f), step.view, step.settings.frontOnly, step.mirrored);
+    const std::optional<glm::vec3> hair = step.scratch->guides.frontPoint(
+        step.groom, step.surface, area.frame, step.pixel, std::min(step.radiusPixels, 12.0f), step.view,
+        step.settings.frontOnly, step.mirrored);
     if (hair && (!step.hit || glm::length(*hair - step.view.rayOrigin(step.pixel)) < step.hit->distance)) {
         area.centre = *hair;
     } else if (step.hit) {
@@ -27,9 +27,13 @@ std::optional<BrushArea> brushArea(BrushStep& step) {
     return area;
 }
 
-bool GuideBrush::prepare(const BrushStep&, const BrushArea&) { return true; }
+bool GuideBrush::prepare(const BrushStep&, const BrushArea&) {
+    return true;
+}
 
-float GuideBrush::gather(const BrushStep&, float) const { return 0.0f; }
+float GuideBrush::gather(const BrushStep&, float) const {
+    return 0.0f;
+}
 
 void GuideBrush::step(BrushStep& step) {
     if (!(step.strength > 0.0f) || step.groom.guides.empty()) return;

@@ -2,13 +2,13 @@
 // What brushes that reshape guides share: which guides, how strongly, in which order, and writing the result.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/brushes/brush.h"
 #include "core/brushes/constraints.h"
 #include "core/brushes/guide_index.h"
 #include "core/brushes/screen.h"
+
+#include <span>
+#include <vector>
 
 namespace whorl {
 

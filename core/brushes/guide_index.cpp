@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/guide_index.h"
 
-#include <algorithm>
-
 #include "core/base/parallel.h"
+
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -112,7 +112,8 @@ void GuideIndex::select(const Groom& groom, const Surface& surface, const BrushA
         for (std::size_t i = 0; i < block.count(); ++i) {
             const Ball& ball = m_guides[first + i];
             if (!area.mayTouch(ball.centre, ball.radius)) continue;
-            Touched touched{static_cast<std::uint32_t>(first + i), static_cast<std::uint32_t>(found.weights.size()), 0.0f};
+            Touched touched{static_cast<std::uint32_t>(first + i), static_cast<std::uint32_t>(found.weights.size()),
+                            0.0f};
             for (std::uint32_t p = block.firstPoint[i]; p < block.firstPoint[i + 1]; ++p) {
                 found.weights.push_back(area.weight(block.points[p]));
                 touched.largest = std::max(touched.largest, found.weights.back());

@@ -2,12 +2,13 @@
 // Which guides a brush can touch, found by bounding balls instead of asking every point.
 #pragma once
 
-#include <cstdint>
+#include "core/brushes/screen.h"
+
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 #include <span>
 #include <vector>
-
-#include "core/brushes/screen.h"
 
 namespace whorl {
 
@@ -37,8 +38,8 @@ public:
 
     /// The guides under the brush, exactly those that a pass over every point finds. With `frontOnly`, only those whose
     /// root faces the eye and is not hidden by the mesh.
-    void select(const Groom& groom, const Surface& surface, const BrushArea& area, const StrokeView& view, bool frontOnly,
-                bool mirrored, Selection& selection);
+    void select(const Groom& groom, const Surface& surface, const BrushArea& area, const StrokeView& view,
+                bool frontOnly, bool mirrored, Selection& selection);
     /// The guide point nearest to the eye within `radiusPixels` of the cursor, as (point, true).
     std::optional<glm::vec3> frontPoint(const Groom& groom, const Surface& surface, const ScreenFrame& frame,
                                         glm::vec2 pixel, float radiusPixels, const StrokeView& view, bool frontOnly,
@@ -60,7 +61,8 @@ private:
         std::size_t count = 0;
         float amount = 0.0f;
     };
-    bool rootShows(const Groom& groom, const Surface& surface, const StrokeView& view, std::size_t guide, bool mirrored);
+    bool rootShows(const Groom& groom, const Surface& surface, const StrokeView& view, std::size_t guide,
+                   bool mirrored);
     void ballOfBlock(const GuideSet& guides, std::size_t block);
 
     std::vector<Ball> m_blocks;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/guide_shape.h"
 
-#include <algorithm>
-#include <array>
+#include "core/brushes/constraints.h"
+
 #include <glm/geometric.hpp>
 
-#include "core/brushes/constraints.h"
+#include <algorithm>
+#include <array>
 
 namespace whorl {
 
-float defaultGuideLength(const Surface& surface) { return glm::length(surface.bounds.size()) * 0.1f; }
+float defaultGuideLength(const Surface& surface) {
+    return glm::length(surface.bounds.size()) * 0.1f;
+}
 
 NearestRoot nearestRoot(const GuideSet& guides, const glm::vec3& position) {
     NearestRoot nearest{guides.count(), 1e30f};

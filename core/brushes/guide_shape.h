@@ -2,18 +2,18 @@
 // The shape of a new guide: like its neighbours, or standing up.
 #pragma once
 
-#include <vector>
-
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
+
+#include <vector>
 
 namespace whorl {
 
 /// Length of guides where nobody gave one: a tenth of the mesh's size, metres.
 float defaultGuideLength(const Surface& surface);
 
-/// Points of a guide of `group` at `root`: the mean of its nearest guides of the group (Shepard weights), turned with the
-/// skin from their roots to this one; along the normal, `length` metres (0: the default), where the group has none.
+/// Points of a guide of `group` at `root`: the mean of its nearest guides of the group (Shepard weights), turned with
+/// the skin from their roots to this one; along the normal, `length` metres (0: the default), where the group has none.
 std::vector<glm::vec3> guideShapeAt(const Groom& groom, const Surface& surface, const SurfacePoint& root,
                                     std::uint8_t group, float length);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/guide_shape.h"
 #include "core/brushes/stroke_scratch.h"
+
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -36,6 +36,8 @@ class PlaceBrush : public Brush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makePlace() { return std::make_unique<PlaceBrush>(); }
+std::unique_ptr<Brush> makePlace() {
+    return std::make_unique<PlaceBrush>();
+}
 
 }  // namespace whorl

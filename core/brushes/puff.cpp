@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <glm/geometric.hpp>
-#include <vector>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/guide_brush.h"
+
+#include <glm/geometric.hpp>
+
+#include <vector>
 
 namespace whorl {
 namespace {
@@ -18,7 +19,8 @@ class PuffBrush : public GuideBrush {
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const glm::vec3 segment = before[i + 1] - before[i];
             const float length = glm::length(segment);
-            const glm::vec3 wish = step.settings.invert ? segment - normal * glm::dot(segment, normal) : normal * length;
+            const glm::vec3 wish =
+                step.settings.invert ? segment - normal * glm::dot(segment, normal) : normal * length;
             points[i + 1] = points[i] + segment + (wish - segment) * turn;
         }
         settle(points, touch.original, skin());
@@ -27,6 +29,8 @@ class PuffBrush : public GuideBrush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makePuff() { return std::make_unique<PuffBrush>(); }
+std::unique_ptr<Brush> makePuff() {
+    return std::make_unique<PuffBrush>();
+}
 
 }  // namespace whorl

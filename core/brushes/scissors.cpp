@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/cut.h"
 #include "core/brushes/guide_brush.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace whorl {
 namespace {
@@ -42,9 +42,16 @@ class ScissorsOrGrow : public Brush {
         return m_brush->begin(groom, m_settings);
     }
     void step(BrushStep& step) override {
-        BrushStep inner{.groom = step.groom, .surface = step.surface, .view = step.view, .settings = m_settings,
-                        .pixel = step.pixel, .previousPixel = step.previousPixel, .hit = step.hit,
-                        .radiusPixels = step.radiusPixels, .strength = step.strength, .mirrored = step.mirrored,
+        BrushStep inner{.groom = step.groom,
+                        .surface = step.surface,
+                        .view = step.view,
+                        .settings = m_settings,
+                        .pixel = step.pixel,
+                        .previousPixel = step.previousPixel,
+                        .hit = step.hit,
+                        .radiusPixels = step.radiusPixels,
+                        .strength = step.strength,
+                        .mirrored = step.mirrored,
                         .scratch = step.scratch};
         m_brush->step(inner);
         step.changed = inner.changed;
@@ -56,6 +63,8 @@ class ScissorsOrGrow : public Brush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makeScissors() { return std::make_unique<ScissorsOrGrow>(); }
+std::unique_ptr<Brush> makeScissors() {
+    return std::make_unique<ScissorsOrGrow>();
+}
 
 }  // namespace whorl

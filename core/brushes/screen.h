@@ -2,13 +2,14 @@
 // The part of a stroke's view that a step asks thousands of times: pixels of points, and movements across the view.
 #pragma once
 
-#include <cmath>
+#include "core/brushes/brush.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/brushes/brush.h"
+#include <cmath>
 
 namespace whorl {
 

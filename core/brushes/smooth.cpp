@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <array>
-#include <glm/geometric.hpp>
-#include <vector>
-
 #include "core/brushes/brush_list.h"
 #include "core/brushes/guide_brush.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace whorl {
 namespace {
@@ -34,6 +35,8 @@ class SmoothBrush : public GuideBrush {
 
 }  // namespace
 
-std::unique_ptr<Brush> makeSmooth() { return std::make_unique<SmoothBrush>(); }
+std::unique_ptr<Brush> makeSmooth() {
+    return std::make_unique<SmoothBrush>();
+}
 
 }  // namespace whorl

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
+#include "core/brushes/stroke_scratch.h"
+
 #include <glm/geometric.hpp>
 
-#include "core/brushes/stroke_scratch.h"
+#include <algorithm>
+#include <cmath>
 
 namespace whorl {
 namespace {
 
 // Centres of steps are multiples of 1/16 pixel and pressures of 1/4096, so that rounding on the way along the path can
 // not make two strokes differ that were cut into events differently.
-glm::vec2 onGrid(glm::dvec2 pixel) { return glm::vec2(glm::round(pixel * 16.0) / 16.0); }
+glm::vec2 onGrid(glm::dvec2 pixel) {
+    return glm::vec2(glm::round(pixel * 16.0) / 16.0);
+}
 float pressureOnGrid(double pressure) {
     return static_cast<float>(std::round(std::clamp(pressure, 0.0, 1.0) * 4096.0) / 4096.0);
 }
@@ -69,8 +72,8 @@ bool Stroke::moveTo(const StrokePoint& point) {
     for (; at <= length + 1e-6; at += spacing) {
         const double t = length > 0.0 ? std::min(at / length, 1.0) : 1.0;
         const glm::vec2 pixel = onGrid(from + way * t);
-        const double pressure = static_cast<double>(m_last->pressure) +
-                                static_cast<double>(point.pressure - m_last->pressure) * t;
+        const double pressure =
+            static_cast<double>(m_last->pressure) + static_cast<double>(point.pressure - m_last->pressure) * t;
         changed |= stepAt(m_lastStep, pixel, pressureOnGrid(pressure));
         m_lastStep = pixel;
     }

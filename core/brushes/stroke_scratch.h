@@ -2,10 +2,10 @@
 // What one stroke remembers between steps, for its brush and the brush's mirror image.
 #pragma once
 
-#include <memory>
-
 #include "core/brushes/guide_index.h"
 #include "core/brushes/paint_canvas.h"
+
+#include <memory>
 
 namespace whorl {
 

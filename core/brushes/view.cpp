@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/brushes/screen.h"
+
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
-
-#include "core/brushes/screen.h"
 
 namespace whorl {
 namespace {

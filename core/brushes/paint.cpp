@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/brushes/brush_list.h"
+#include "core/brushes/stroke_scratch.h"
+
+namespace whorl {
+namespace {
+
+/// Paints a data map in a ball around the skin under the cursor.
+class PaintBrush : public Brush {
+    Result<void> begin(const Groom& groom, const BrushSettings& settings) override {
+        if (settings.map.empty()) return Error{"Choose a map to paint first."};
+        const Map* map = groom.maps.find(settings.map);
+        if (map == nullptr) return Error{"The groom has no map \"" + settings.map + "\"; choose another to paint."};
+        if (map->channels() != 1 || map->empty()) {
+            return Error{"The map \"" + settings.map + "\" holds colours; choose a map of numbers to paint."};
+        }
+        return {};
+    }
+
+    void step(BrushStep& step) override {
+        if (!(step.strength > 0.0f) || !step.hit) return;
+        const std::string& name = step.settings.map;
+        std::unique_ptr<PaintCanvas>& canvas = step.scratch->canvas;
+        if (!canvas) canvas = std::make_unique<PaintCanvas>(step.surface, *step.groom.maps.find(name));
+        PaintDab dab{.centre = step.hit->position, .strength = step.strength, .frontOnly = step.settings.frontOnly};
+        dab.radius = step.radiusPixels * step.view.metresPerPixel(dab.centre);
+        // Without perspective rays are parallel: an eye far along this one faces the same triangles.
+        dab.eye = step.view.rayOrigin(step.pixel);
+        step.changed = canvas->paint(step.groom.maps, name, dab, step.settings.invert ? 0.0f : step.settings.value);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Brush> makePaint() {
+    return std::make_unique<PaintBrush>();
+}
+
+}  // namespace whorl
