@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/surface/surface.h"
+
+namespace whorl {
+
+Surface::Surface(Cow<SurfaceMesh> mesh) : shared(mesh), query(std::move(mesh)), bounds(boundsOf(*shared)) {}
+
+const DistanceField& Surface::skin() const {
+    std::call_once(m_skinOnce, [this] { m_skin = DistanceField::build(query); });
+    return m_skin;
+}
+
+std::shared_ptr<const Surface> SurfaceCache::get(const Cow<SurfaceMesh>& mesh) {
+    const std::lock_guard lock(m_mutex);
+    if (!m_newest || !m_newest->shared.sameAs(mesh)) m_newest = std::make_shared<Surface>(mesh);
+    return m_newest;
+}
+
+}  // namespace whorl
