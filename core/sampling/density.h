@@ -20,6 +20,11 @@ public:
     int mapWidth() const { return m_width; }
     int mapHeight() const { return m_height; }
     bool growsOn(std::uint32_t triangle) const;
+    /// True when the density at the very place is above zero: a root near the edge of a painted area can lie in a
+    /// sub-triangle with weight and yet on a texel without hair.
+    bool growsAt(const SurfaceMesh& mesh, const SurfacePoint& root) const;
+    /// No `at` is above this.
+    float upperBound() const;
 
 private:
     struct Entry {

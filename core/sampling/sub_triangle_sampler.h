@@ -12,6 +12,8 @@
 
 namespace whorl {
 
+struct SubTrianglePlace;
+
 /// The distribution: triangles are subdivided 1:4 until at most one texel of the density map falls on a sub-triangle,
 /// each weighs area x density at its barycentre, equal siblings are merged into their parent, and the cumulative
 /// weights carry a uniform grid over their codomain that narrows the bisection. Immutable once built.
@@ -26,7 +28,7 @@ public:
 
     struct Options {
         float gridPercent = 100.0f;  ///< cells of the grid as a share of the sub-triangles, 0 to 400; 0: bisection only
-        int maxDepth = 8;            ///< caps subdivision (4^8 sub-triangles of one triangle)
+        int maxDepth = 10;           ///< caps subdivision (4^10 sub-triangles of one triangle); at most 10
         std::uint32_t maxSubTriangles = 64u << 20;  ///< depth is lowered where this would be passed
     };
 
@@ -51,18 +53,27 @@ public:
     /// (seed, index). Neighbouring indices are neighbours on the surface, so ranges of indices are compact parts.
     SurfacePoint stratifiedRoot(std::uint64_t index, std::uint64_t count, std::uint32_t seed) const;
 
-private:
+    /// Index of the sub-triangle that `selection` in [0, 1) picks.
+    std::size_t select(double selection) const;
+    /// A place in that sub-triangle, uniform for uniform `a` and `b`.
     SurfacePoint place(std::size_t subTriangle, float a, float b) const;
+
+private:
     std::size_t find(double weight, std::size_t begin, std::size_t end) const;
+    std::size_t cellOf(double weight) const;
+    void buildDistribution(float gridPercent);
 
     std::vector<SubTriangle> m_subTriangles;
     std::vector<double> m_cumulative;
     std::vector<std::uint32_t> m_grid;  // first candidate of each cell, one more entry at the end
+    double m_cellsPerWeight = 0.0;
     double m_total = 0.0;
+    const SubTrianglePlace* m_places = nullptr;  // the shared position table
 };
 
 /// Rejection sampling (seed 000, section 3.4.1): triangle by area, uniform place, accepted with probability density /
-/// maxDensity. Baseline of tests and benchmarks. Empty when nothing grows.
+/// maxDensity. Baseline of tests and benchmarks. Empty when nothing grows; fewer than asked for when hardly anything
+/// is accepted.
 std::vector<SurfacePoint> rejectionSample(const SurfaceMesh& mesh, const DensityLookup& density, std::size_t count,
                                           std::uint32_t seed);
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sampling/density.h"
+
+#include "core/surface/surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whorl {
+
+DensityLookup::DensityLookup(const Groom& groom) : m_groom(groom) {
+    const auto use = [&](const std::string& name) -> const Map* {
+        const Map* map = name.empty() ? nullptr : groom.maps.find(name);
+        if (!map || map->empty()) return nullptr;
+        m_width = std::max(m_width, map->width());
+        m_height = std::max(m_height, map->height());
+        return map;
+    };
+    if (groom.groups->size() > 1) m_groupMap = use(groom.counts->groupMap.name);
+    for (const Group& group : *groom.groups) {
+        const Driven& density = group.params.general.density;
+        m_groups.push_back({density.value, use(density.map)});
+    }
+    m_growsByTriangle.assign(groom.mesh->triangles.size(), 1);
+    const auto& parts = groom.mesh->parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (groom.growsHair(static_cast<std::uint32_t>(i))) continue;
+        const std::size_t first = std::min<std::size_t>(parts[i].firstTriangle, m_growsByTriangle.size());
+        const std::size_t count = std::min<std::size_t>(parts[i].triangleCount, m_growsByTriangle.size() - first);
+        std::fill_n(m_growsByTriangle.begin() + static_cast<std::ptrdiff_t>(first), count, std::uint8_t{0});
+    }
+}
+
+int DensityLookup::groupAt(glm::vec2 uv) const {
+    if (!m_groupMap) return 0;
+    const float number = std::round(m_groupMap->sampleNearest(uv) * 255.0f);
+    const int last = static_cast<int>(m_groups.size()) - 1;
+    // Written so that not-a-number is group 0.
+    return number > 0.0f ? static_cast<int>(std::min(number, static_cast<float>(last))) : 0;
+}
+
+float DensityLookup::at(std::uint32_t triangle, glm::vec2 uv) const {
+    if (!growsOn(triangle)) return 0.0f;
+    const Entry& group = m_groups[static_cast<std::size_t>(groupAt(uv))];
+    const float density = group.map ? group.value * group.map->sample(uv) : group.value;
+    return density > 0.0f && std::isfinite(density) ? density : 0.0f;
+}
+
+bool DensityLookup::growsOn(std::uint32_t triangle) const {
+    return m_growsByTriangle[triangle] != 0;
+}
+
+bool DensityLookup::growsAt(const SurfaceMesh& mesh, const SurfacePoint& root) const {
+    return at(root.triangle, uvAt(mesh, root)) > 0.0f;
+}
+
+float DensityLookup::upperBound() const {
+    float bound = 0.0f;
+    for (const Entry& group : m_groups) {
+        float brightest = 1.0f;
+        if (group.map && group.map->format() == TexelFormat::F32) {
+            brightest = 0.0f;
+            for (int y = 0; y < group.map->height(); ++y) {
+                for (int x = 0; x < group.map->width(); ++x) {
+                    for (int channel = 0; channel < group.map->channels(); ++channel) {
+                        const float texel = group.map->texel(x, y, channel);
+                        if (texel > brightest && std::isfinite(texel)) brightest = texel;
+                    }
+                }
+            }
+        }
+        if (const float most = group.value * brightest; most > bound && std::isfinite(most)) bound = most;
+    }
+    // Weights of bilinear sampling add up to 1 only up to rounding.
+    return bound * 1.00001f;
+}
+
+}  // namespace whorl
