@@ -220,32 +220,63 @@ Result<void> SafeFile::commit() {
     return {};
 }
 
-Result<std::vector<std::uint8_t>> readFile(const std::filesystem::path& file, std::uint64_t maxBytes) {
-    const std::string name = file.string();
+namespace {
+
+/// A regular file, open for reading.
+struct OpenedFile {
+    int descriptor = -1;
+    std::uint64_t size = 0;
+
+    OpenedFile() = default;
+    OpenedFile(OpenedFile&& other) noexcept : descriptor(std::exchange(other.descriptor, -1)), size(other.size) {}
+    OpenedFile& operator=(OpenedFile&&) = delete;
+    ~OpenedFile() {
+        if (descriptor >= 0) close(descriptor);
+    }
+};
+
+Result<OpenedFile> openFile(const std::string& name) {
+    OpenedFile file;
     // Without O_NONBLOCK a pipe would wait for a writer.
-    const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return Error{name + " can not be read: " + fileCause(errno) + "."};
-    struct Closer {
-        int descriptor;
-        ~Closer() { close(descriptor); }
-    } closer{descriptor};
+    file.descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat status {};
-    if (fstat(descriptor, &status) != 0) return Error{name + " can not be read: " + fileCause(errno) + "."};
+    if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
+        return Error{name + " can not be read: " + fileCause(errno) + "."};
     if (!S_ISREG(status.st_mode)) return Error{name + " can not be read: it is not a file."};
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size > maxBytes)
-        return Error{name + " has " + std::to_string(size) + " bytes; the most that can be read is " +
-                     std::to_string(maxBytes) + "."};
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    file.size = static_cast<std::uint64_t>(status.st_size);
+    return Result<OpenedFile>(std::move(file));
+}
+
+Result<std::vector<std::uint8_t>> readBytes(const OpenedFile& file, std::size_t size, const std::string& name) {
+    std::vector<std::uint8_t> bytes(size);
     std::size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t got = read(descriptor, bytes.data() + done, std::min<std::size_t>(bytes.size() - done, 1 << 30));
+    while (done < size) {
+        const ssize_t got = read(file.descriptor, bytes.data() + done, std::min<std::size_t>(size - done, 1 << 30));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return Error{name + " can not be read: " + fileCause(errno) + "."};
         if (got == 0) return Error{name + " became shorter while it was read. Try again."};
         done += static_cast<std::size_t>(got);
     }
     return bytes;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> readFile(const std::filesystem::path& file, std::uint64_t maxBytes) {
+    const std::string name = file.string();
+    const auto opened = openFile(name);
+    if (!opened) return opened.error();
+    if (opened->size > maxBytes)
+        return Error{name + " has " + std::to_string(opened->size) + " bytes; the most that can be read is " +
+                     std::to_string(maxBytes) + "."};
+    return readBytes(*opened, static_cast<std::size_t>(opened->size), name);
+}
+
+Result<std::vector<std::uint8_t>> readFileStart(const std::filesystem::path& file, std::size_t bytes) {
+    const std::string name = file.string();
+    const auto opened = openFile(name);
+    if (!opened) return opened.error();
+    return readBytes(*opened, static_cast<std::size_t>(std::min<std::uint64_t>(opened->size, bytes)), name);
 }
 
 void sweepOrphans(const std::filesystem::path& file) {

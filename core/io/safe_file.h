@@ -47,6 +47,9 @@ private:
 /// The whole file; refused above `maxBytes`, for folders, devices and pipes.
 Result<std::vector<std::uint8_t>> readFile(const std::filesystem::path& file, std::uint64_t maxBytes);
 
+/// Its first bytes, fewer when it is shorter. The same refusals, any size.
+Result<std::vector<std::uint8_t>> readFileStart(const std::filesystem::path& file, std::size_t bytes);
+
 /// For tests: called before every write, sync and rename; returns an errno to fail with, or 0. Empty: off.
 enum class FileStep { Open, Write, Sync, Rename, SyncFolder };
 void setFileFault(std::function<int(FileStep)> fault);
