@@ -235,7 +235,8 @@ private Q_SLOTS:
             const Groom groom = testing::randomGroom(seed);
             std::vector<json::json_pointer> places;
             (void)withManifest(groom, [&](json& manifest) {
-                for (const auto& [place, value] : manifest.flatten().items()) {
+                const json flat = manifest.flatten();
+                for (const auto& [place, value] : flat.items()) {
                     json::json_pointer pointer(place);
                     for (int up = 0; up < 2 && !pointer.empty(); ++up, pointer.pop_back()) places.push_back(pointer);
                 }
