@@ -17,7 +17,7 @@ class DeleteBrush : public Brush {
         step.scratch->guides.select(step.groom, step.surface, *area, step.view, step.settings.frontOnly, step.mirrored,
                                     m_selection);
         m_doomed.clear();
-        for (const GuideIndex::Touched& touched : m_selection.guides) {
+        for (const BrushIndex::Touched& touched : m_selection.guides) {
             if (m_selection.weights[touched.firstWeight] > 0.0f) m_doomed.push_back(touched.guide);
         }
         if (m_doomed.empty()) return;
@@ -26,7 +26,7 @@ class DeleteBrush : public Brush {
         step.changed = true;
     }
 
-    GuideIndex::Selection m_selection;
+    BrushIndex::Selection m_selection;
     std::vector<std::size_t> m_doomed;
 };
 

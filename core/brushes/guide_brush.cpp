@@ -39,7 +39,7 @@ void GuideBrush::step(BrushStep& step) {
     if (!(step.strength > 0.0f) || step.groom.guides.empty()) return;
     const std::optional<BrushArea> area = brushArea(step);
     if (!area || !prepare(step, *area)) return;
-    GuideIndex& index = step.scratch->guides;
+    BrushIndex& index = step.scratch->guides;
     GuideSet& guides = step.groom.guides;
     index.select(step.groom, step.surface, *area, step.view, step.settings.frontOnly, step.mirrored, m_selection);
     if (m_selection.guides.empty()) return;
@@ -48,7 +48,7 @@ void GuideBrush::step(BrushStep& step) {
     m_firstPoint.assign(1, 0);
     m_points.clear();
     for (float& weight : m_selection.weights) weight *= step.strength;
-    for (GuideIndex::Touched& touched : m_selection.guides) {
+    for (BrushIndex::Touched& touched : m_selection.guides) {
         touched.largest *= step.strength;
         index.remember(guides, touched.guide);
         index.amount(touched.guide) += gather(step, touched.largest);
@@ -58,7 +58,7 @@ void GuideBrush::step(BrushStep& step) {
     }
     parallelFor(m_selection.guides.size(), 32, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const GuideIndex::Touched& touched = m_selection.guides[i];
+            const BrushIndex::Touched& touched = m_selection.guides[i];
             const std::size_t count = m_firstPoint[i + 1] - m_firstPoint[i];
             GuideTouch touch{touched.guide,
                              index.original(touched.guide),

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/brushes/brush.h"
+#include "core/brushes/brush_index.h"
 #include "core/brushes/constraints.h"
-#include "core/brushes/guide_index.h"
 #include "core/brushes/screen.h"
 
 #include <span>
@@ -44,7 +44,7 @@ protected:
 
 private:
     SkinClearance m_skin;
-    GuideIndex::Selection m_selection;
+    BrushIndex::Selection m_selection;
     std::vector<std::size_t> m_firstPoint;
     std::vector<glm::vec3> m_points;
     std::vector<std::uint32_t> m_changed;

@@ -2,7 +2,7 @@
 // What one stroke remembers between steps, for its brush and the brush's mirror image.
 #pragma once
 
-#include "core/brushes/guide_index.h"
+#include "core/brushes/brush_index.h"
 #include "core/brushes/paint_canvas.h"
 
 #include <memory>
@@ -10,7 +10,7 @@
 namespace whorl {
 
 struct StrokeScratch {
-    GuideIndex guides;
+    BrushIndex guides;
     std::unique_ptr<PaintCanvas> canvas;  ///< made by paint brushes at their first step
 };
 

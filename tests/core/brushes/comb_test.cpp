@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The comb, its constraints, the index of guides, and what single brushes promise.
 #include "core/base/random.h"
+#include "core/brushes/brush_index.h"
 #include "core/brushes/constraints.h"
-#include "core/brushes/guide_index.h"
 #include "core/brushes/orbit_view.h"
 #include "tests/support/shapes.h"
 
@@ -135,8 +135,8 @@ private Q_SLOTS:
 
     void theIndexFindsWhatAPassOverAllPointsFinds() {
         Groom groom = hairyBall();
-        GuideIndex index;
-        GuideIndex::Selection selection;
+        BrushIndex index;
+        BrushIndex::Selection selection;
         for (std::uint32_t round = 0; round < 60; ++round) {
             const auto random = [&](std::uint32_t channel) { return randomFloat(5, round, channel); };
             const StrokeView view = viewOf(groom, 6.0f * random(0), 2.0f * random(1) - 1.0f);
@@ -147,7 +147,7 @@ private Q_SLOTS:
                            glm::vec3(random(5) - 0.5f, random(6) - 0.5f, random(7) - 0.5f) * 0.3f,
                            0.005f + 0.08f * random(8)};
             const bool frontOnly = round % 3 == 0;
-            GuideIndex fresh;  // the view changed: visibility must be asked anew
+            BrushIndex fresh;  // the view changed: visibility must be asked anew
             fresh.select(groom, *ballSurface(), area, view, frontOnly, false, selection);
             std::size_t next = 0;
             for (std::size_t i = 0; i < groom.guides.count(); ++i) {
@@ -157,7 +157,7 @@ private Q_SLOTS:
                 if (!(largest > 0.0f)) continue;
                 if (frontOnly && !rootFacesEye(*ballSurface(), view, groom.guides.root(i))) continue;
                 QVERIFY(next < selection.guides.size());
-                const GuideIndex::Touched& touched = selection.guides[next++];
+                const BrushIndex::Touched& touched = selection.guides[next++];
                 QCOMPARE(std::size_t{touched.guide}, i);
                 QCOMPARE(touched.largest, largest);
                 for (std::size_t k = 0; k < points.size(); ++k) {
@@ -172,9 +172,9 @@ private Q_SLOTS:
             for (glm::vec3& p : groom.guides.editPoints(guide).subspan(1))
                 p += glm::vec3(0.03f * random(10), 0.02f, 0.0f);
             index.update(groom.guides, std::vector{guide});
-            GuideIndex::Selection updated, again;
+            BrushIndex::Selection updated, again;
             index.select(groom, *ballSurface(), area, view, false, false, updated);
-            GuideIndex().select(groom, *ballSurface(), area, view, false, false, again);
+            BrushIndex().select(groom, *ballSurface(), area, view, false, false, again);
             QCOMPARE(updated.guides.size(), again.guides.size());
             QVERIFY(updated.weights == again.weights);
         }

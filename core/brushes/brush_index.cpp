@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/brushes/guide_index.h"
+#include "core/brushes/brush_index.h"
 
 #include "core/base/parallel.h"
 
@@ -8,13 +8,13 @@
 namespace whorl {
 namespace {
 
-GuideIndex::Ball ballAround(std::span<const glm::vec3> points) {
+BrushIndex::Ball ballAround(std::span<const glm::vec3> points) {
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& p : points) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    GuideIndex::Ball ball{(low + high) * 0.5f, 0.0f};
+    BrushIndex::Ball ball{(low + high) * 0.5f, 0.0f};
     float squared = 0.0f;
     for (const glm::vec3& p : points) squared = std::max(squared, glm::dot(p - ball.centre, p - ball.centre));
     ball.radius = std::sqrt(squared) * 1.00001f;
@@ -38,7 +38,7 @@ bool rootFacesEye(const Surface& surface, const StrokeView& view, const SurfaceP
     return hit->distance > distance - 1e-3f * glm::length(surface.bounds.size());
 }
 
-void GuideIndex::forget() {
+void BrushIndex::forget() {
     m_made = false;
     m_guides.clear();
     m_blocks.clear();
@@ -49,7 +49,7 @@ void GuideIndex::forget() {
     m_points.clear();
 }
 
-void GuideIndex::follow(const GuideSet& guides) {
+void BrushIndex::follow(const GuideSet& guides) {
     if (m_made && m_guides.size() == guides.count() && m_blocks.size() == guides.blockCount()) return;
     forget();
     m_made = true;
@@ -71,7 +71,7 @@ void GuideIndex::follow(const GuideSet& guides) {
     });
 }
 
-void GuideIndex::ballOfBlock(const GuideSet& guides, std::size_t block) {
+void BrushIndex::ballOfBlock(const GuideSet& guides, std::size_t block) {
     const std::size_t first = guides.firstOfBlock(block), last = first + guides.block(block).count();
     glm::vec3 low(1e30f), high(-1e30f);
     for (std::size_t i = first; i < last; ++i) {
@@ -85,14 +85,14 @@ void GuideIndex::ballOfBlock(const GuideSet& guides, std::size_t block) {
     m_blocks[block] = ball;
 }
 
-bool GuideIndex::rootShows(const Groom& groom, const Surface& surface, const StrokeView& view, std::size_t guide,
+bool BrushIndex::rootShows(const Groom& groom, const Surface& surface, const StrokeView& view, std::size_t guide,
                            bool mirrored) {
     std::uint8_t& shows = m_shows[mirrored ? 1 : 0][guide];
     if (shows == 0) shows = rootFacesEye(surface, view, groom.guides.root(guide)) ? 1 : 2;
     return shows == 1;
 }
 
-void GuideIndex::select(const Groom& groom, const Surface& surface, const BrushArea& area, const StrokeView& view,
+void BrushIndex::select(const Groom& groom, const Surface& surface, const BrushArea& area, const StrokeView& view,
                         bool frontOnly, bool mirrored, Selection& selection) {
     const GuideSet& guides = groom.guides;
     follow(guides);
@@ -138,7 +138,7 @@ void GuideIndex::select(const Groom& groom, const Surface& surface, const BrushA
     }
 }
 
-std::optional<glm::vec3> GuideIndex::frontPoint(const Groom& groom, const Surface& surface, const ScreenFrame& frame,
+std::optional<glm::vec3> BrushIndex::frontPoint(const Groom& groom, const Surface& surface, const ScreenFrame& frame,
                                                 glm::vec2 pixel, float radiusPixels, const StrokeView& view,
                                                 bool frontOnly, bool mirrored) {
     const GuideSet& guides = groom.guides;
@@ -168,7 +168,7 @@ std::optional<glm::vec3> GuideIndex::frontPoint(const Groom& groom, const Surfac
     return best;
 }
 
-void GuideIndex::update(const GuideSet& guides, std::span<const std::uint32_t> changed) {
+void BrushIndex::update(const GuideSet& guides, std::span<const std::uint32_t> changed) {
     std::size_t block = 0;
     std::size_t i = 0;
     while (i < changed.size()) {
@@ -180,7 +180,7 @@ void GuideIndex::update(const GuideSet& guides, std::span<const std::uint32_t> c
     }
 }
 
-void GuideIndex::remember(const GuideSet& guides, std::uint32_t guide) {
+void BrushIndex::remember(const GuideSet& guides, std::uint32_t guide) {
     if (m_memoryOf[guide] != ~0u) return;
     m_memoryOf[guide] = static_cast<std::uint32_t>(m_memories.size());
     const std::span<const glm::vec3> points = guides.points(guide);
@@ -188,7 +188,7 @@ void GuideIndex::remember(const GuideSet& guides, std::uint32_t guide) {
     m_points.insert(m_points.end(), points.begin(), points.end());
 }
 
-std::span<const glm::vec3> GuideIndex::original(std::uint32_t guide) const {
+std::span<const glm::vec3> BrushIndex::original(std::uint32_t guide) const {
     const Memory& memory = m_memories[m_memoryOf[guide]];
     return std::span<const glm::vec3>(m_points).subspan(memory.firstPoint, memory.count);
 }

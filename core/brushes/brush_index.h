@@ -14,7 +14,7 @@ namespace whorl {
 
 /// Balls around guides and around blocks of guides, and what a stroke remembers of the guides that it touched. Lives as
 /// long as one stroke: the view stays, roots stay.
-class GuideIndex {
+class BrushIndex {
 public:
     struct Ball {
         glm::vec3 centre{0.0f};
