@@ -25,14 +25,14 @@ public:
     OffscreenRenderer& operator=(OffscreenRenderer&&) noexcept;
     ~OffscreenRenderer();
 
-    Renderer& renderer() { return *m_renderer; }
+    Renderer& renderer();
+    /// 1 to 16,384 pixels a side.
     Picture draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, int width, int height);
 
 private:
-    OffscreenRenderer() = default;
-    void* m_display = nullptr;
-    void* m_context = nullptr;
-    std::unique_ptr<Renderer> m_renderer;
+    OffscreenRenderer();
+    struct State;
+    std::unique_ptr<State> m_state;
 };
 
 }  // namespace whorl

@@ -13,6 +13,7 @@
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
 #include "render/camera.h"
+#include "render/uploads.h"
 #include "render/view_settings.h"
 
 namespace whorl {
@@ -44,6 +45,11 @@ public:
         double draw = 0;
     };
     Timing timing() const;
+
+    /// What was uploaded since the renderer was made: shows that only changes travel.
+    const Uploads& uploads() const;
+    /// Drawn by the processor, without a graphics card: draw with ViewSettings::interactive while the view moves.
+    bool software() const;
 
 private:
     Renderer();

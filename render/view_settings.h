@@ -33,6 +33,9 @@ struct ViewSettings {
     int samples = 4;               ///< multisampling, 1 to 4
     float minPixelWidth = 1.0f;    ///< thinner hair is drawn this wide and more transparent
     float exposure = 1.0f;
+    /// The view moves or a stroke is drawn: without a graphics card a part of the hair is drawn, wider, with fewer
+    /// points and samples, so that the viewport follows. Makes no difference with one.
+    bool interactive = false;
 };
 
 /// Brush circle and hints over the picture, in pixels of the viewport from the top left.

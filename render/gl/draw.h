@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawing calls and the fixed state that they need.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/base/result.h"
+#include "render/gl/objects.h"
+
+namespace whorl::gl {
+
+/// Facts of the current context.
+struct ContextInfo {
+    std::string renderer;
+    bool software = false;  ///< drawn by the processor (llvmpipe, softpipe, SwiftShader)
+    int maxSamples = 1;
+    int maxTextureSize = 0;
+};
+/// A sentence when the context is older than OpenGL 4.5. Needs a current context.
+Result<ContextInfo> contextInfo();
+
+enum class Blend { None, Over, OverPremultiplied };
+enum class Depth { None, Test, TestWrite };
+
+struct DrawState {
+    Depth depth = Depth::TestWrite;
+    Blend blend = Blend::None;
+    bool cullBack = false;
+    float slopeBias = 0.0f;  ///< polygon offset, for shadow maps
+};
+void apply(const DrawState& state);
+
+/// Shaders pull their vertices from storage buffers by gl_VertexID: there are no vertex attributes.
+class EmptyVertexArray {
+public:
+    EmptyVertexArray();
+    void bind() const;
+
+private:
+    Name m_name;
+};
+
+void drawTriangles(std::size_t first, std::size_t count);
+void drawLines(std::size_t first, std::size_t count);
+/// 16-bit indices from the bound index buffer; `first` in indices.
+void drawIndexed16(std::size_t first, std::size_t count);
+void dispatch(std::size_t groups);
+/// What compute shaders wrote is seen by the shaders that follow.
+void storageBarrier();
+void scissor(glm::ivec4 xywh);
+void noScissor();
+/// Draws go into a framebuffer that others own (0: the window).
+void bindTarget(unsigned target, glm::ivec2 size);
+/// As a fresh context has it, for programs that draw after us (Qt).
+void restoreState();
+/// Waits until all is drawn.
+void finish();
+
+}  // namespace whorl::gl

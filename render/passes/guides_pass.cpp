@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes/guides_pass.h"
+
+#include <glm/vec4.hpp>
+
+namespace whorl {
+namespace {
+
+// Points with their place along the guide: exactly 0 at roots only.
+std::vector<glm::vec4> pointsOf(const GuideBlock& block) {
+    std::vector<glm::vec4> points(block.points.size());
+    for (std::size_t guide = 0; guide < block.count(); ++guide) {
+        const std::uint32_t first = block.firstPoint[guide];
+        const std::uint32_t last = block.firstPoint[guide + 1];
+        for (std::uint32_t i = first; i < last; ++i) {
+            const float along = static_cast<float>(i - first) / static_cast<float>(std::max(last - first, 2u) - 1u);
+            points[i] = glm::vec4(block.points[i], along);
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+Result<GuidesPass> GuidesPass::create() {
+    GuidesPass pass;
+    Result<gl::Program> lines = gl::Program::draw("guides.vert.glsl", "guides.frag.glsl");
+    if (!lines) return lines.error();
+    Result<gl::Program> roots = gl::Program::draw("guides.vert.glsl", "guides.frag.glsl", "#define ROOTS\n");
+    if (!roots) return roots.error();
+    pass.m_lines = std::move(*lines);
+    pass.m_roots = std::move(*roots);
+    pass.m_points = gl::Buffer("guide points");
+    return pass;
+}
+
+void GuidesPass::setGuides(const GuideSet& guides, Uploads& uploads) {
+    if (guides.sameAs(m_guides)) return;
+    std::vector<std::size_t> firstPoint{0};
+    for (std::size_t i = 0; i < guides.blockCount(); ++i) {
+        firstPoint.push_back(firstPoint.back() + guides.block(i).points.size());
+    }
+    const bool all = firstPoint != m_firstPoint;
+    if (all) m_points.reserve(firstPoint.back() * sizeof(glm::vec4));
+    for (std::size_t i = 0; i < guides.blockCount(); ++i) {
+        if (!all && guides.blockSameAs(i, m_guides)) continue;
+        const std::vector<glm::vec4> points = pointsOf(guides.block(i));
+        m_points.update(firstPoint[i] * sizeof(glm::vec4), points.data(), points.size() * sizeof(glm::vec4));
+        ++uploads.guideBlocks;
+        uploads.bytes += points.size() * sizeof(glm::vec4);
+    }
+    m_firstPoint = std::move(firstPoint);
+    m_guides = guides;
+}
+
+void GuidesPass::draw() {
+    if (m_guides.empty()) return;
+    const std::size_t points = m_firstPoint.back();
+    m_points.bindStorage(0);
+    gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
+    m_lines.set("halfWidth", 0.8f);
+    m_lines.set("rootColour", glm::vec3(0.95f, 0.42f, 0.08f));
+    m_lines.set("tipColour", glm::vec3(1.0f, 0.85f, 0.35f));
+    m_lines.use();
+    gl::drawTriangles(0, (points - 1) * 6);
+    m_roots.set("halfWidth", 2.4f);
+    m_roots.set("rootColour", glm::vec3(0.10f, 0.75f, 0.95f));
+    m_roots.set("tipColour", glm::vec3(0.10f, 0.75f, 0.95f));
+    m_roots.use();
+    gl::drawTriangles(0, points * 6);
+}
+
+}  // namespace whorl

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes/hair_pass.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/surface/surface_point.h"
+
+namespace whorl {
+namespace {
+
+constexpr std::size_t pointBytes = 32;
+
+// The skin's normal at each root and a random number that stays with the hair's id.
+std::vector<glm::vec4> rootInfo(const Strands& strands, const SurfaceMesh& mesh) {
+    std::vector<glm::vec4> roots(strands.count());
+    parallelFor(strands.count(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            glm::vec3 normal(0.0f, 1.0f, 0.0f);
+            const std::uint32_t first = strands.firstVertex[i];
+            if (strands.roots[i].triangle < mesh.triangleCount()) {
+                normal = normalAt(mesh, strands.roots[i]);
+            } else if (strands.firstVertex[i + 1] - first > 1) {
+                const glm::vec3 way = strands.positions[first + 1] - strands.positions[first];
+                const float length = glm::length(way);
+                if (length > 0.0f) normal = way / length;
+            }
+            roots[i] = glm::vec4(normal, randomFloat(0x68616972u, strands.ids[i], 0));
+        }
+    });
+    return roots;
+}
+
+}  // namespace
+
+Result<HairPass> HairPass::create() {
+    HairPass pass;
+    Result<gl::Program> points = gl::Program::compute("hair_points.comp.glsl");
+    if (!points) return points.error();
+    Result<gl::Program> smooth = gl::Program::draw("hair.vert.glsl", "hair.frag.glsl", "#define SMOOTH\n");
+    if (!smooth) return smooth.error();
+    Result<gl::Program> plain = gl::Program::draw("hair.vert.glsl", "hair.frag.glsl");
+    if (!plain) return plain.error();
+    pass.m_points = std::move(*points);
+    pass.m_ribbons = std::move(*smooth);
+    pass.m_plainRibbons = std::move(*plain);
+    pass.m_positions = gl::Buffer("hair positions");
+    pass.m_widths = gl::Buffer("hair widths");
+    pass.m_colours = gl::Buffer("hair colours");
+    pass.m_first = gl::Buffer("hair first vertices");
+    pass.m_roots = gl::Buffer("hair roots");
+    pass.m_pointBuffer = gl::Buffer("hair points");
+    pass.m_orderBuffer = gl::Buffer("hair order");
+    return pass;
+}
+
+void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceMesh& mesh, Uploads& uploads) {
+    if (strands == m_strands) return;
+    m_strands = std::move(strands);
+    m_order.clear();
+    if (m_strands == nullptr || m_strands->count() == 0) {
+        m_strands = nullptr;
+        return;
+    }
+    m_positions.upload(m_strands->positions);
+    m_widths.upload(m_strands->widths);
+    m_colours.upload(m_strands->colours);
+    m_first.upload(m_strands->firstVertex);
+    m_roots.upload(rootInfo(*m_strands, mesh));
+    ++uploads.strands;
+    uploads.bytes +=
+        m_positions.size() + m_widths.size() + m_colours.size() + m_first.size() + m_roots.size();
+}
+
+void HairPass::prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward) {
+    if (m_strands == nullptr) return;
+    m_detail = detail;
+    const std::size_t points = std::size_t{detail.hairs(*m_strands)} * detail.pointsPerHair;
+    m_pointBuffer.reserve(points * pointBytes);
+    m_positions.bindStorage(0);
+    m_widths.bindStorage(1);
+    m_colours.bindStorage(2);
+    m_first.bindStorage(3);
+    m_roots.bindStorage(4);
+    m_pointBuffer.bindStorage(5);
+    m_points.set("hairCount", detail.hairs(*m_strands));
+    m_points.set("stride", detail.stride);
+    m_points.set("pointsPerHair", detail.pointsPerHair);
+    m_points.set("widthScale", static_cast<float>(detail.stride));
+    m_points.use();
+    gl::dispatch((points + 63) / 64);
+    if (m_order.update(*m_strands, detail, eye, forward)) m_orderBuffer.upload(m_order.segments());
+    gl::storageBarrier();
+}
+
+void HairPass::draw(bool smooth) {
+    if (m_strands == nullptr) return;
+    gl::Program& program = smooth ? m_ribbons : m_plainRibbons;
+    program.set("pointsPerHair", m_detail.pointsPerHair);
+    program.use();
+    m_pointBuffer.bindStorage(5);
+    m_orderBuffer.bindStorage(6);
+    gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
+    gl::drawTriangles(0, m_order.segments().size() * 6);
+}
+
+}  // namespace whorl

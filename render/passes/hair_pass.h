@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hair as camera-facing ribbons, lit along the strand.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/hair/strands.h"
+#include "core/model/surface_mesh.h"
+#include "render/gl/draw.h"
+#include "render/gl/program.h"
+#include "render/passes/hair_order.h"
+#include "render/passes/map_texture.h"
+
+namespace whorl {
+
+class HairPass {
+public:
+    static Result<HairPass> create();
+
+    /// Uploads when the pointer differs from the last one. Root normals come from `mesh`.
+    void setStrands(std::shared_ptr<const Strands> strands, const SurfaceMesh& mesh, Uploads& uploads);
+    const Strands* strands() const { return m_strands.get(); }
+
+    /// Projects and lights all points, sorts the segments. Scene block and volumes must be bound.
+    void prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward);
+    /// Draws what was prepared; `smooth`: with fringes that are filtered across.
+    void draw(bool smooth);
+
+private:
+    std::shared_ptr<const Strands> m_strands;
+    HairDetail m_detail{};
+    HairOrder m_order;
+    gl::Program m_points;
+    gl::Program m_ribbons;
+    gl::Program m_plainRibbons;
+    gl::Buffer m_positions;
+    gl::Buffer m_widths;
+    gl::Buffer m_colours;
+    gl::Buffer m_first;
+    gl::Buffer m_roots;
+    gl::Buffer m_pointBuffer;
+    gl::Buffer m_orderBuffer;
+};
+
+}  // namespace whorl

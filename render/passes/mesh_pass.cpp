@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes/mesh_pass.h"
+
+#include <algorithm>
+
+namespace whorl {
+
+Result<MeshPass> MeshPass::create(int maxTextureSize) {
+    MeshPass pass;
+    pass.m_maxTextureSize = maxTextureSize;
+    Result<gl::Program> program = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl");
+    if (!program) return program.error();
+    Result<gl::Program> shadow = gl::Program::draw("mesh.vert.glsl", "empty.frag.glsl", "#define SHADOW\n");
+    if (!shadow) return shadow.error();
+    pass.m_program = std::move(*program);
+    pass.m_shadowProgram = std::move(*shadow);
+    pass.m_positions = gl::Buffer("mesh positions");
+    pass.m_normals = gl::Buffer("mesh normals");
+    pass.m_corners = gl::Buffer("mesh corners");
+    pass.m_uvs = gl::Buffer("mesh uvs");
+    pass.m_white = gl::Texture::make2D("white", gl::Format::Rgba8, glm::ivec2(1), gl::Wrap::Repeat);
+    const std::uint32_t white = 0xffffffffu;
+    pass.m_white.upload(glm::ivec2(0), glm::ivec2(1), &white);
+    return pass;
+}
+
+void MeshPass::setGroom(const Groom& groom, Uploads& uploads) {
+    if (!m_mesh.sameAs(groom.mesh)) {
+        m_mesh = groom.mesh;
+        m_positions.upload(m_mesh->positions);
+        m_normals.upload(m_mesh->normals);
+        m_corners.upload(m_mesh->triangles);
+        m_uvs.upload(m_mesh->cornerUvs);
+        m_triangles = m_mesh->triangles.size();
+        ++uploads.meshes;
+        uploads.bytes += m_positions.size() + m_normals.size() + m_corners.size() + m_uvs.size();
+    }
+    m_parts = *groom.partSettings;
+    if (!m_maps.sameAs(groom.maps)) {
+        m_maps = groom.maps;
+        std::erase_if(m_textures, [&](const auto& entry) { return m_maps.find(entry.first) == nullptr; });
+        for (auto& [name, texture] : m_textures) texture.update(*m_maps.find(name), m_maxTextureSize, uploads);
+    }
+}
+
+void MeshPass::bindBuffers() const {
+    m_positions.bindStorage(0);
+    m_normals.bindStorage(1);
+    m_corners.bindStorage(2);
+    m_uvs.bindStorage(3);
+}
+
+void MeshPass::draw(const ViewSettings& settings, Uploads& uploads) {
+    if (m_triangles == 0) return;
+    const auto textureOf = [&](const std::string& name) -> const MapTexture* {
+        const Map* map = name.empty() ? nullptr : m_maps.find(name);
+        if (map == nullptr || map->empty()) return nullptr;
+        MapTexture& texture = m_textures[name];
+        if (texture.empty()) texture.update(*map, m_maxTextureSize, uploads);
+        return &texture;
+    };
+    const MapTexture* overlay = textureOf(settings.overlayMap);
+    m_program.set("overlayOpacity", overlay != nullptr ? std::clamp(settings.overlayOpacity, 0.0f, 1.0f) : 0.0f);
+    if (overlay != nullptr) {
+        overlay->bind(4);
+        m_program.set("overlayFlipped", overlay->map().flipV ? 1 : 0);
+        m_program.set("overlayColours", overlay->map().channels() == 3 ? 1 : 0);
+        m_program.set("overlayRange", 1.0f);
+    } else {
+        m_white.bind(4);
+    }
+    bindBuffers();
+    gl::apply({.depth = gl::Depth::TestWrite});
+    for (std::size_t i = 0; i < m_mesh->parts.size(); ++i) {
+        const MeshPart& part = m_mesh->parts[i];
+        if (i < m_parts.size() && !m_parts[i].visible) continue;
+        const MapTexture* texture = settings.showTexture ? textureOf(part.texture) : nullptr;
+        m_program.set("baseColour", part.baseColour);
+        int textured = 0;
+        if (texture != nullptr) {
+            texture->bind(3);
+            // 8-bit sRGB is decoded by the card, 16-bit by the shader.
+            textured = texture->map().srgb && texture->map().format() == TexelFormat::U16 ? 2 : 1;
+            m_program.set("textureFlipped", texture->map().flipV ? 1 : 0);
+        } else {
+            m_white.bind(3);
+        }
+        m_program.set("textured", textured);
+        m_program.use();
+        gl::drawTriangles(std::size_t{3} * part.firstTriangle, std::size_t{3} * part.triangleCount);
+    }
+}
+
+void MeshPass::drawShadow() {
+    if (m_triangles == 0) return;
+    bindBuffers();
+    m_shadowProgram.use();
+    gl::apply({.depth = gl::Depth::TestWrite, .slopeBias = 2.0f});
+    for (std::size_t i = 0; i < m_mesh->parts.size(); ++i) {
+        const MeshPart& part = m_mesh->parts[i];
+        if (i < m_parts.size() && !m_parts[i].visible) continue;
+        gl::drawTriangles(std::size_t{3} * part.firstTriangle, std::size_t{3} * part.triangleCount);
+    }
+}
+
+}  // namespace whorl

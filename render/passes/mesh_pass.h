@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh with its textures, and one map of the groom in colour over it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/model/groom.h"
+#include "render/gl/draw.h"
+#include "render/gl/program.h"
+#include "render/passes/map_texture.h"
+#include "render/view_settings.h"
+
+namespace whorl {
+
+class MeshPass {
+public:
+    static Result<MeshPass> create(int maxTextureSize);
+
+    /// Uploads what differs from the last call.
+    void setGroom(const Groom& groom, Uploads& uploads);
+    /// Scene block, volumes and shadow map must be bound.
+    void draw(const ViewSettings& settings, Uploads& uploads);
+    /// Depth of all visible parts in the projection of scene.shadowFromGroom.
+    void drawShadow();
+    bool empty() const { return m_triangles == 0; }
+
+private:
+    void bindBuffers() const;
+
+    int m_maxTextureSize = 0;
+    gl::Program m_program;
+    gl::Program m_shadowProgram;
+    gl::Buffer m_positions;
+    gl::Buffer m_normals;
+    gl::Buffer m_corners;
+    gl::Buffer m_uvs;
+    gl::Texture m_white;
+    Cow<SurfaceMesh> m_mesh;
+    std::vector<PartSettings> m_parts;
+    MapSet m_maps;
+    std::map<std::string, MapTexture, std::less<>> m_textures;  // only maps that were needed
+    std::size_t m_triangles = 0;
+};
+
+}  // namespace whorl

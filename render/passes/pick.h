@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is under the cursor.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "core/model/guide_set.h"
+#include "core/surface/surface_query.h"
+
+namespace whorl {
+
+/// Nearest guide to `pixel` (from the top left) within `radius` pixels whose nearest place is not behind the mesh.
+/// `query` may be null: then nothing hides. Ties go to the lowest index.
+std::optional<std::size_t> pickGuide(const GuideSet& guides, const SurfaceQuery* query, const glm::mat4& clipFromGroom,
+                                     const glm::vec3& eye, glm::vec2 pixel, float radius, glm::vec2 viewportPixels);
+
+}  // namespace whorl

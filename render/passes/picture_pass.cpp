@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes/picture_pass.h"
+
+#include <algorithm>
+
+namespace whorl {
+
+Result<PicturePass> PicturePass::create() {
+    PicturePass pass;
+    Result<gl::Program> background = gl::Program::draw("screen.vert.glsl", "background.frag.glsl");
+    if (!background) return background.error();
+    Result<gl::Program> finish = gl::Program::draw("screen.vert.glsl", "finish.frag.glsl");
+    if (!finish) return finish.error();
+    pass.m_background = std::move(*background);
+    pass.m_finish = std::move(*finish);
+    return pass;
+}
+
+void PicturePass::begin(glm::ivec2 size, int samples) {
+    if (!m_target || m_target.size() != size || m_samples != samples) {
+        m_target = gl::Framebuffer();
+        m_resolvedTarget = gl::Framebuffer();
+        m_samples = samples;
+        m_colour = gl::Texture::make2D("picture", gl::Format::Rgba16F, size, gl::Wrap::Clamp, false, samples);
+        m_depth = gl::Texture::make2D("picture depth", gl::Format::Depth32F, size, gl::Wrap::Clamp, false, samples);
+        m_target = gl::Framebuffer("picture", &m_colour, &m_depth);
+        if (samples > 1) {
+            m_resolved = gl::Texture::make2D("resolved picture", gl::Format::Rgba16F, size, gl::Wrap::Clamp);
+            m_resolvedTarget = gl::Framebuffer("resolved picture", &m_resolved, nullptr);
+        }
+    }
+    m_target.bind();
+    m_target.clearDepth();
+}
+
+void PicturePass::drawBackground(const ViewSettings& settings) {
+    m_background.set("centreColour", settings.background);
+    const glm::ivec2 size = m_target.size();
+    m_background.set("aspect", static_cast<float>(size.x) / static_cast<float>(std::max(size.y, 1)));
+    m_background.use();
+    gl::apply({.depth = gl::Depth::None});
+    gl::drawTriangles(0, 3);
+}
+
+void PicturePass::finish(const ViewSettings& settings) {
+    if (m_samples > 1) m_target.resolveTo(m_resolvedTarget);
+    (m_samples > 1 ? m_resolved : m_colour).bind(0);
+    m_finish.set("exposure", std::max(settings.exposure, 0.0f));
+    m_finish.use();
+    gl::apply({.depth = gl::Depth::None});
+    gl::drawTriangles(0, 3);
+}
+
+}  // namespace whorl

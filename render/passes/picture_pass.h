@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture in linear light: backdrop at first; resolve, tone curve and encoding at last.
+#pragma once
+
+#include "render/gl/draw.h"
+#include "render/gl/program.h"
+#include "render/view_settings.h"
+
+namespace whorl {
+
+class PicturePass {
+public:
+    static Result<PicturePass> create();
+    /// Binds the own framebuffer of that size and number of samples, cleared.
+    void begin(glm::ivec2 size, int samples);
+    void drawBackground(const ViewSettings& settings);
+    /// Into the bound target, scaled to its size.
+    void finish(const ViewSettings& settings);
+
+private:
+    gl::Program m_background;
+    gl::Program m_finish;
+    gl::Texture m_colour;
+    gl::Texture m_depth;
+    gl::Texture m_resolved;
+    gl::Framebuffer m_target;
+    gl::Framebuffer m_resolvedTarget;
+    int m_samples = 0;
+};
+
+}  // namespace whorl

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes/shadow_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/gl/draw.h"
+
+namespace whorl {
+
+ShadowPass::ShadowPass() {
+    m_hairVolume = gl::Texture::make3D("hair shadow volume", gl::Format::R16, glm::ivec3(VoxelShadow::size));
+    m_ambientVolume = gl::Texture::make3D("ambient volume", gl::Format::Rgba16F, glm::ivec3(AmbientVolume::size));
+    m_map = gl::Texture::make2D("mesh shadow map", gl::Format::Depth32F, glm::ivec2(mapSize), gl::Wrap::Clamp);
+    m_map.compareDepth();
+    m_mapTarget = gl::Framebuffer("mesh shadow map", nullptr, &m_map);
+}
+
+void ShadowPass::update(const Strands* hair, const ViewSettings& settings, std::uint32_t stride,
+                        const Bounds& meshBounds, MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer) {
+    const glm::vec3 light(scene.keyDirection);
+    const bool shadows = settings.shadows == ShadowMode::Voxel;
+    scene.shadow.x = 0.0f;
+    scene.shadow.y = 1.0f / static_cast<float>(mapSize);
+    if (hair != nullptr && shadows) {
+        if (!m_hairValid || m_hairLight != light || m_stride != stride) {
+            m_voxels.build(*hair, stride, light);
+            m_hairVolume.upload3D(m_voxels.texels().data());
+            m_hairLight = light;
+            m_hairValid = true;
+        }
+        if (!m_ambientValid || m_stride != stride) {
+            m_ambient.build(*hair, stride);
+            m_ambientVolume.upload3D(m_ambient.texels().data());
+            m_ambientValid = true;
+        }
+        m_stride = stride;
+        scene.voxelFromGroom = m_voxels.voxelFromGroom();
+        scene.shadow.x = std::log2(std::clamp(settings.shadowAlpha, 0.01f, 1.0f)) * VoxelShadow::fullLayers;
+        scene.ambientScale = glm::vec4(m_ambient.scale(), 0.0f);
+        scene.ambientOffset = glm::vec4(m_ambient.offset(), 0.0f);
+    }
+
+    scene.shadowFromGroom = shadowMatrix(light, meshBounds);
+    const float radius = meshBounds.empty() ? 1.0f : glm::length(meshBounds.size()) * 0.51f;
+    // Two texels out of the skin, so that it does not shadow itself.
+    scene.shadow.z = 2.0f * 2.0f * radius / static_cast<float>(mapSize);
+    const bool drawn = mesh != nullptr && shadows;
+    if (!m_mapValid || m_mapLight != light || m_meshDrawn != drawn) {
+        m_mapTarget.bind();
+        m_mapTarget.clearDepth();
+        if (drawn) {
+            sceneBuffer.upload(&scene, sizeof(scene));
+            sceneBuffer.bindUniform(0);
+            mesh->drawShadow();
+        }
+        m_mapValid = true;
+        m_mapLight = light;
+        m_meshDrawn = drawn;
+    }
+}
+
+void ShadowPass::bind() const {
+    m_hairVolume.bind(0);
+    m_ambientVolume.bind(1);
+    m_map.bind(2);
+}
+
+}  // namespace whorl

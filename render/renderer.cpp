@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/gl/draw.h"
+#include "render/gl/program.h"
+#include "render/passes/guides_pass.h"
+#include "render/passes/hair_pass.h"
+#include "render/passes/mesh_pass.h"
+#include "render/passes/overlay_pass.h"
+#include "render/passes/pick.h"
+#include "render/passes/picture_pass.h"
+#include "render/passes/shadow_pass.h"
+
+namespace whorl {
+namespace {
+
+double milliseconds(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+}
+
+// How much is drawn: everything, or what a processor alone draws in a frame's time.
+struct Effort {
+    HairDetail hair{};
+    int samples = 1;
+    float resolution = 1.0f;
+    int shadowTaps = 9;
+    bool smoothHair = true;
+};
+
+Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, const Strands* strands) {
+    Effort effort;
+    effort.samples = std::clamp(settings.samples, 1, std::min(4, context.maxSamples));
+    if (effort.samples == 3) effort.samples = 2;
+    const bool reduced = settings.interactive && context.software;
+    if (reduced) {
+        effort.samples = 1;
+        effort.shadowTaps = 1;
+        effort.smoothHair = false;
+    }
+    if (strands != nullptr && strands->count() > 0) {
+        const std::size_t count = strands->count();
+        const std::size_t pieces = std::max<std::size_t>(strands->vertexCount() / count, 2) - 1;
+        if (reduced) {
+            constexpr std::size_t segments = 24000;
+            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 6)) + 1;
+            const std::size_t hairs = std::max<std::size_t>(segments / (effort.hair.pointsPerHair - 1), 1);
+            effort.hair.stride = static_cast<std::uint32_t>((count + hairs - 1) / hairs);
+        } else {
+            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 255)) + 1;
+        }
+    }
+    return effort;
+}
+
+}  // namespace
+
+struct Renderer::State {
+    gl::ContextInfo context;
+    gl::EmptyVertexArray vertexArray;
+    MeshPass mesh;
+    GuidesPass guides;
+    HairPass hair;
+    ShadowPass shadows;
+    PicturePass picture;
+    OverlayPass overlay;
+    gl::Buffer sceneBuffer;
+    gl::TimerQuery shadowTimer;
+    gl::TimerQuery drawTimer;
+
+    Groom groom{};
+    std::shared_ptr<const Surface> surface{};
+    std::shared_ptr<const Strands> strands{};
+    Bounds hairBounds{};
+    Bounds guideBounds{};
+    Uploads uploads{};
+    double uploadMilliseconds = 0.0;
+    double shadowMilliseconds = 0.0;
+
+    Bounds sceneBounds() const {
+        Bounds bounds;
+        if (surface != nullptr) bounds.add(surface->bounds);
+        if (!hairBounds.empty()) bounds.add(hairBounds);
+        if (!guideBounds.empty()) bounds.add(guideBounds);
+        return bounds;
+    }
+};
+
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+
+Result<std::unique_ptr<Renderer>> Renderer::create() {
+    Result<gl::ContextInfo> context = gl::contextInfo();
+    if (!context) return context.error();
+    Result<MeshPass> mesh = MeshPass::create(context->maxTextureSize);
+    if (!mesh) return mesh.error();
+    Result<GuidesPass> guides = GuidesPass::create();
+    if (!guides) return guides.error();
+    Result<HairPass> hair = HairPass::create();
+    if (!hair) return hair.error();
+    Result<PicturePass> picture = PicturePass::create();
+    if (!picture) return picture.error();
+    Result<OverlayPass> overlay = OverlayPass::create();
+    if (!overlay) return overlay.error();
+    std::unique_ptr<Renderer> renderer(new Renderer);
+    renderer->m_state = std::unique_ptr<State>(
+        new State{std::move(*context), gl::EmptyVertexArray(), std::move(*mesh), std::move(*guides), std::move(*hair),
+                  ShadowPass(), std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
+                  gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    return renderer;
+}
+
+void Renderer::setGroom(const Groom& groom, std::shared_ptr<const Surface> surface) {
+    const auto start = std::chrono::steady_clock::now();
+    State& state = *m_state;
+    const bool meshChanged = !state.groom.mesh.sameAs(groom.mesh);
+    const bool partsChanged = !state.groom.partSettings.sameAs(groom.partSettings);
+    state.mesh.setGroom(groom, state.uploads);
+    if (!state.groom.guides.sameAs(groom.guides)) {
+        state.guides.setGuides(groom.guides, state.uploads);
+        state.guideBounds = {};
+        for (std::size_t i = 0; i < groom.guides.blockCount(); ++i) {
+            for (const glm::vec3& p : groom.guides.block(i).points) state.guideBounds.add(p);
+        }
+    }
+    if (meshChanged || partsChanged) state.shadows.meshChanged();
+    state.groom = groom;
+    state.surface = std::move(surface);
+    state.uploadMilliseconds = milliseconds(start);
+}
+
+void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
+    State& state = *m_state;
+    if (strands == state.strands) return;
+    const auto start = std::chrono::steady_clock::now();
+    state.strands = std::move(strands);
+    state.hair.setStrands(state.strands, *state.groom.mesh, state.uploads);
+    state.hairBounds = state.hair.strands() != nullptr ? vertexBounds(*state.hair.strands()) : Bounds{};
+    state.shadows.hairChanged();
+    state.uploadMilliseconds = milliseconds(start);
+}
+
+void Renderer::draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, unsigned target,
+                    glm::ivec2 size) {
+    State& state = *m_state;
+    size = glm::max(size, glm::ivec2(1));
+    const Strands* hair = settings.showHair ? state.hair.strands() : nullptr;
+    const Effort effort = effortFor(settings, state.context, hair);
+    const glm::ivec2 drawn =
+        glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
+
+    state.vertexArray.bind();
+    const Bounds bounds = state.sceneBounds();
+    SceneBlock scene = sceneBlock(camera, settings, bounds, drawn);
+    scene.shadow.w = static_cast<float>(effort.shadowTaps);
+    const auto shadowStart = std::chrono::steady_clock::now();
+    state.shadowTimer.begin();
+    state.shadows.update(hair, settings, effort.hair.stride, state.surface != nullptr ? state.surface->bounds : bounds,
+                         settings.showMesh ? &state.mesh : nullptr, scene, state.sceneBuffer);
+    state.shadowTimer.end();
+    state.shadowMilliseconds = milliseconds(shadowStart);
+
+    state.drawTimer.begin();
+    state.sceneBuffer.upload(&scene, sizeof(scene));
+    state.sceneBuffer.bindUniform(0);
+    state.shadows.bind();
+    if (hair != nullptr) {
+        const glm::vec3 forward = glm::normalize(camera.target - camera.eye());
+        state.hair.prepare(effort.hair, camera.eye(), forward);
+    }
+    state.picture.begin(drawn, effort.samples);
+    state.picture.drawBackground(settings);
+    if (settings.showMesh) state.mesh.draw(settings, state.uploads);
+    if (hair != nullptr) state.hair.draw(effort.smoothHair);
+    if (settings.showGuides) state.guides.draw();
+    gl::bindTarget(target, size);
+    state.picture.finish(settings);
+    state.overlay.draw(overlay, size);
+    state.drawTimer.end();
+    gl::restoreState();
+}
+
+std::optional<std::size_t> Renderer::pickGuide(const Camera& camera, glm::vec2 pixel, float radius,
+                                               glm::ivec2 size) const {
+    const State& state = *m_state;
+    const glm::vec2 pixels(glm::max(size, glm::ivec2(1)));
+    const glm::mat4 clip = camera.clipFromView(pixels, state.sceneBounds()) * camera.viewFromGroom();
+    return whorl::pickGuide(state.groom.guides, state.surface != nullptr ? &state.surface->query : nullptr, clip,
+                            camera.eye(), pixel, radius, pixels);
+}
+
+Renderer::Timing Renderer::timing() const {
+    State& state = *m_state;
+    return {state.uploadMilliseconds, std::max(state.shadowTimer.milliseconds(), state.shadowMilliseconds),
+            state.drawTimer.milliseconds()};
+}
+
+const Uploads& Renderer::uploads() const { return m_state->uploads; }
+
+bool Renderer::software() const { return m_state->context.software; }
+
+}  // namespace whorl

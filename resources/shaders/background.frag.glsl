@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// A studio backdrop: lighter behind the head, darker at the edges.
+layout(location = 0) in vec2 place;
+layout(location = 0) out vec4 colour;
+uniform vec3 centreColour;
+uniform float aspect;
+void main() {
+    vec2 from = (place - vec2(0.5, 0.54)) * vec2(aspect, 1.0);
+    float edge = clamp(dot(from, from) * 1.9, 0.0, 1.0);
+    colour = vec4(centreColour * mix(1.55, 0.42, edge), 1.0);
+}
