@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/camera.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -22,7 +23,9 @@ glm::vec3 towardsEye(const Camera& camera) {
     return glm::vec3(std::sin(camera.azimuth) * c, std::sin(camera.elevation), std::cos(camera.azimuth) * c);
 }
 
-float aspect(glm::vec2 viewportPixels) { return std::max(viewportPixels.x, 1.0f) / std::max(viewportPixels.y, 1.0f); }
+float aspect(glm::vec2 viewportPixels) {
+    return std::max(viewportPixels.x, 1.0f) / std::max(viewportPixels.y, 1.0f);
+}
 
 // Radius of the ball around the box; a box without size gets a small one.
 float ballRadius(const Bounds& bounds) {
@@ -31,9 +34,13 @@ float ballRadius(const Bounds& bounds) {
 
 }  // namespace
 
-glm::vec3 Camera::eye() const { return target + towardsEye(*this) * distance; }
+glm::vec3 Camera::eye() const {
+    return target + towardsEye(*this) * distance;
+}
 
-glm::mat4 Camera::viewFromGroom() const { return glm::lookAt(eye(), target, glm::vec3(0.0f, 1.0f, 0.0f)); }
+glm::mat4 Camera::viewFromGroom() const {
+    return glm::lookAt(eye(), target, glm::vec3(0.0f, 1.0f, 0.0f));
+}
 
 glm::mat4 Camera::clipFromView(glm::vec2 viewportPixels, const Bounds& scene) const {
     const glm::vec3 centre = scene.empty() ? target : scene.centre();
@@ -121,9 +128,10 @@ Result<Camera> Camera::named(std::string_view name, const Bounds& bounds, glm::v
             const bool good = fault == std::errc{} && std::isfinite(degrees[i]) &&
                               (i == 0 ? next != end && *next == ',' : next == end);
             if (!good) {
-                return Error{"The view \"" + std::string(name) +
-                             "\" is unknown; say front, back, left, right, side, top, three-quarter, or azimuth,elevation "
-                             "in degrees such as 30,10."};
+                return Error{
+                    "The view \"" + std::string(name) +
+                    "\" is unknown; say front, back, left, right, side, top, three-quarter, or azimuth,elevation "
+                    "in degrees such as 30,10."};
             }
             at = next + 1;
         }

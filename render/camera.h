@@ -2,14 +2,15 @@
 // The eye of a view: orbits a target.
 #pragma once
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <string_view>
-
 #include "core/base/result.h"
 #include "core/brushes/brush.h"
 #include "core/surface/surface_point.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <string_view>
 
 namespace whorl {
 
@@ -35,8 +36,8 @@ struct Camera {
     /// Moves target and distance so that the box fills the view.
     void frame(const Bounds& bounds, glm::vec2 viewportPixels);
 
-    /// "front", "back", "left", "right" or "side" (from the model's left), "top", "three-quarter", or "azimuth,elevation"
-    /// in degrees.
+    /// "front", "back", "left", "right" or "side" (from the model's left), "top", "three-quarter", or
+    /// "azimuth,elevation" in degrees.
     static Result<Camera> named(std::string_view name, const Bounds& bounds, glm::vec2 viewportPixels);
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/offscreen.h"
 
-#include <algorithm>
-
 #include "render/gl/headless.h"
 #include "render/gl/objects.h"
+
+#include <algorithm>
 
 namespace whorl {
 

@@ -2,11 +2,11 @@
 // Pictures without a window.
 #pragma once
 
+#include "render/renderer.h"
+
 #include <cstdint>
 #include <memory>
 #include <vector>
-
-#include "render/renderer.h"
 
 namespace whorl {
 
@@ -27,7 +27,8 @@ public:
 
     Renderer& renderer();
     /// 1 to 16,384 pixels a side.
-    Picture draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, int width, int height);
+    Picture draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, int width,
+                 int height);
 
 private:
     OffscreenRenderer();

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/renderer.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
 #include "render/passes/guides_pass.h"
@@ -15,6 +10,12 @@
 #include "render/passes/pick.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/shadow_pass.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace whorl {
 namespace {
@@ -107,10 +108,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     Result<OverlayPass> overlay = OverlayPass::create();
     if (!overlay) return overlay.error();
     std::unique_ptr<Renderer> renderer(new Renderer);
-    renderer->m_state = std::unique_ptr<State>(
-        new State{std::move(*context), gl::EmptyVertexArray(), std::move(*mesh), std::move(*guides), std::move(*hair),
-                  ShadowPass(), std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
-                  gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    renderer->m_state = std::unique_ptr<State>(new State{std::move(*context), gl::EmptyVertexArray(), std::move(*mesh),
+                                                         std::move(*guides), std::move(*hair), ShadowPass(),
+                                                         std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
+                                                         gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
     return renderer;
 }
 
@@ -150,8 +151,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     size = glm::max(size, glm::ivec2(1));
     const Strands* hair = settings.showHair ? state.hair.strands() : nullptr;
     const Effort effort = effortFor(settings, state.context, hair);
-    const glm::ivec2 drawn =
-        glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
+    const glm::ivec2 drawn = glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
 
     state.vertexArray.bind();
     const Bounds bounds = state.sceneBounds();
@@ -199,8 +199,12 @@ Renderer::Timing Renderer::timing() const {
             state.drawTimer.milliseconds()};
 }
 
-const Uploads& Renderer::uploads() const { return m_state->uploads; }
+const Uploads& Renderer::uploads() const {
+    return m_state->uploads;
+}
 
-bool Renderer::software() const { return m_state->context.software; }
+bool Renderer::software() const {
+    return m_state->context.software;
+}
 
 }  // namespace whorl

@@ -2,12 +2,6 @@
 // Draws a groom and its hair; uploads only what changed since the last picture.
 #pragma once
 
-#include <cstdint>
-#include <glm/vec2.hpp>
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
@@ -15,6 +9,13 @@
 #include "render/camera.h"
 #include "render/uploads.h"
 #include "render/view_settings.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace whorl {
 

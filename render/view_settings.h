@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
 #include <string>
 
 namespace whorl {
@@ -24,14 +25,14 @@ struct ViewSettings {
     ShadowMode shadows = ShadowMode::Voxel;
     float diffuse = 0.75f;
     float specular = 0.35f;
-    float shininess = 60.0f;       ///< exponent p of Kajiya-Kay
-    float shadowAlpha = 0.82f;     ///< light that one layer of hair lets through (seed 004: light = alpha^sum)
+    float shininess = 60.0f;    ///< exponent p of Kajiya-Kay
+    float shadowAlpha = 0.82f;  ///< light that one layer of hair lets through (seed 004: light = alpha^sum)
     glm::vec3 lightDirection{0.45f, 0.75f, 0.65f};  ///< towards the key light, space of the camera's azimuth
     bool lightFollowsCamera = true;
     float ambient = 0.35f;
     glm::vec3 background{0.055f, 0.06f, 0.07f};  ///< linear, at the centre
-    int samples = 4;               ///< multisampling, 1 to 4
-    float minPixelWidth = 1.0f;    ///< thinner hair is drawn this wide and more transparent
+    int samples = 4;                             ///< multisampling, 1 to 4
+    float minPixelWidth = 1.0f;                  ///< thinner hair is drawn this wide and more transparent
     float exposure = 1.0f;
     /// The view moves or a stroke is drawn: without a graphics card a part of the hair is drawn, wider, with fewer
     /// points and samples, so that the viewport follows. Makes no difference with one.

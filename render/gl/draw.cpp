@@ -6,7 +6,9 @@
 namespace whorl::gl {
 namespace {
 
-void deleteVertexArray(unsigned name) { glDeleteVertexArrays(1, &name); }
+void deleteVertexArray(unsigned name) {
+    glDeleteVertexArrays(1, &name);
+}
 
 void enable(GLenum what, bool on) {
     if (on) {
@@ -54,7 +56,9 @@ EmptyVertexArray::EmptyVertexArray() {
     m_name = Name(name, deleteVertexArray);
 }
 
-void EmptyVertexArray::bind() const { glBindVertexArray(m_name.get()); }
+void EmptyVertexArray::bind() const {
+    glBindVertexArray(m_name.get());
+}
 
 void drawTriangles(std::size_t first, std::size_t count) {
     if (count > 0) glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
@@ -73,17 +77,22 @@ void dispatch(std::size_t groups) {
     // One dimension holds at least 65,535 groups; two dimensions hold the rest.
     constexpr std::size_t width = 32768;
     if (groups == 0) return;
-    glDispatchCompute(static_cast<GLuint>(std::min(groups, width)), static_cast<GLuint>((groups + width - 1) / width), 1);
+    glDispatchCompute(static_cast<GLuint>(std::min(groups, width)), static_cast<GLuint>((groups + width - 1) / width),
+                      1);
 }
 
-void storageBarrier() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+void storageBarrier() {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
 
 void scissor(glm::ivec4 xywh) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(xywh.x, xywh.y, xywh.z, xywh.w);
 }
 
-void noScissor() { glDisable(GL_SCISSOR_TEST); }
+void noScissor() {
+    glDisable(GL_SCISSOR_TEST);
+}
 
 void bindTarget(unsigned target, glm::ivec2 size) {
     glBindFramebuffer(GL_FRAMEBUFFER, target);
@@ -108,6 +117,8 @@ void restoreState() {
     for (GLuint unit = 0; unit < 8; ++unit) glBindTextureUnit(unit, 0);
 }
 
-void finish() { glFinish(); }
+void finish() {
+    glFinish();
+}
 
 }  // namespace whorl::gl

@@ -2,11 +2,11 @@
 // Drawing calls and the fixed state that they need.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/base/result.h"
 #include "render/gl/objects.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 namespace whorl::gl {
 

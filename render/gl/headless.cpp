@@ -19,13 +19,9 @@ Result<HeadlessContext> HeadlessContext::create() {
         return Error{"EGL does not start; install libgl1-mesa-dri, or check the graphics driver."};
     }
     eglBindAPI(EGL_OPENGL_API);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_NONE};
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (context == EGL_NO_CONTEXT) {
         return Error{"The graphics driver gives no OpenGL 4.5 context; install a newer driver or Mesa."};
@@ -57,6 +53,8 @@ HeadlessContext::~HeadlessContext() {
     eglDestroyContext(m_display, m_context);
 }
 
-void HeadlessContext::makeCurrent() const { eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context); }
+void HeadlessContext::makeCurrent() const {
+    eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context);
+}
 
 }  // namespace whorl::gl

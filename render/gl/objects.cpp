@@ -21,17 +21,28 @@ struct FormatInfo {
 
 FormatInfo info(Format format) {
     switch (format) {
-        case Format::R8: return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
-        case Format::R16: return {GL_R16, GL_RED, GL_UNSIGNED_SHORT};
-        case Format::R32F: return {GL_R32F, GL_RED, GL_FLOAT};
-        case Format::Rgb8: return {GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE};
-        case Format::Rgb8Srgb: return {GL_SRGB8, GL_RGB, GL_UNSIGNED_BYTE};
-        case Format::Rgb16: return {GL_RGB16, GL_RGB, GL_UNSIGNED_SHORT};
-        case Format::Rgb32F: return {GL_RGB32F, GL_RGB, GL_FLOAT};
-        case Format::Rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-        case Format::Rgba16F: return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
-        case Format::Depth24: return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
-        case Format::Depth32F: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+        case Format::R8:
+            return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+        case Format::R16:
+            return {GL_R16, GL_RED, GL_UNSIGNED_SHORT};
+        case Format::R32F:
+            return {GL_R32F, GL_RED, GL_FLOAT};
+        case Format::Rgb8:
+            return {GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE};
+        case Format::Rgb8Srgb:
+            return {GL_SRGB8, GL_RGB, GL_UNSIGNED_BYTE};
+        case Format::Rgb16:
+            return {GL_RGB16, GL_RGB, GL_UNSIGNED_SHORT};
+        case Format::Rgb32F:
+            return {GL_RGB32F, GL_RGB, GL_FLOAT};
+        case Format::Rgba8:
+            return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+        case Format::Rgba16F:
+            return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
+        case Format::Depth24:
+            return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
+        case Format::Depth32F:
+            return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
     }
     return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 }
@@ -42,10 +53,18 @@ int levelsOf(glm::ivec2 size) {
     return levels;
 }
 
-void deleteBuffer(unsigned name) { glDeleteBuffers(1, &name); }
-void deleteTexture(unsigned name) { glDeleteTextures(1, &name); }
-void deleteFramebuffer(unsigned name) { glDeleteFramebuffers(1, &name); }
-void deleteQuery(unsigned name) { glDeleteQueries(1, &name); }
+void deleteBuffer(unsigned name) {
+    glDeleteBuffers(1, &name);
+}
+void deleteTexture(unsigned name) {
+    glDeleteTextures(1, &name);
+}
+void deleteFramebuffer(unsigned name) {
+    glDeleteFramebuffers(1, &name);
+}
+void deleteQuery(unsigned name) {
+    glDeleteQueries(1, &name);
+}
 
 }  // namespace
 
@@ -81,9 +100,15 @@ void Buffer::update(std::size_t offset, const void* data, std::size_t bytes) {
     }
 }
 
-void Buffer::bindStorage(unsigned index) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, m_name.get()); }
-void Buffer::bindUniform(unsigned index) const { glBindBufferBase(GL_UNIFORM_BUFFER, index, m_name.get()); }
-void Buffer::bindIndices() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m_name.get()); }
+void Buffer::bindStorage(unsigned index) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, m_name.get());
+}
+void Buffer::bindUniform(unsigned index) const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, index, m_name.get());
+}
+void Buffer::bindIndices() const {
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m_name.get());
+}
 
 Texture Texture::make2D(std::string_view text, Format format, glm::ivec2 size, Wrap wrap, bool mipmaps, int samples) {
     Texture texture;
@@ -137,14 +162,18 @@ void Texture::upload3D(const void* texels) {
     glTextureSubImage3D(m_name.get(), 0, 0, 0, 0, m_size.x, m_size.y, m_size.z, format.channels, format.type, texels);
 }
 
-void Texture::makeMipmaps() { glGenerateTextureMipmap(m_name.get()); }
+void Texture::makeMipmaps() {
+    glGenerateTextureMipmap(m_name.get());
+}
 
 void Texture::compareDepth() {
     glTextureParameteri(m_name.get(), GL_TEXTURE_COMPARE_MODE, static_cast<GLint>(GL_COMPARE_REF_TO_TEXTURE));
     glTextureParameteri(m_name.get(), GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(GL_LEQUAL));
 }
 
-void Texture::bind(unsigned unit) const { glBindTextureUnit(unit, m_name.get()); }
+void Texture::bind(unsigned unit) const {
+    glBindTextureUnit(unit, m_name.get());
+}
 
 Framebuffer::Framebuffer(std::string_view text, const Texture* colour, const Texture* depth) {
     unsigned name = 0;
@@ -203,7 +232,9 @@ TimerQuery::TimerQuery(std::string_view text) {
 void TimerQuery::begin() {
     milliseconds();
     m_running = !m_pending;
-    if (m_running) glBeginQuery(GL_TIME_ELAPSED, m_name.get());
+    if (!m_running) return;
+    m_begin = std::chrono::steady_clock::now();
+    glBeginQuery(GL_TIME_ELAPSED, m_name.get());
 }
 
 void TimerQuery::end() {
@@ -220,7 +251,9 @@ double TimerQuery::milliseconds() {
         if (ready != 0) {
             GLuint64 nanoseconds = 0;
             glGetQueryObjectui64v(m_name.get(), GL_QUERY_RESULT, &nanoseconds);
-            m_last = static_cast<double>(nanoseconds) * 1e-6;
+            // llvmpipe counts its first query from zero: no query lasts longer than the time since it began.
+            const std::chrono::duration<double, std::milli> most = std::chrono::steady_clock::now() - m_begin;
+            m_last = std::min(static_cast<double>(nanoseconds) * 1e-6, most.count());
             m_pending = false;
         }
     }

@@ -2,11 +2,13 @@
 // Move-only owners of OpenGL objects, made and filled by direct state access. Names never leave this folder.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <string_view>
@@ -137,6 +139,7 @@ public:
 private:
     Name m_name;
     double m_last = 0.0;
+    std::chrono::steady_clock::time_point m_begin{};
     bool m_pending = false;
     bool m_running = false;
 };

@@ -2,15 +2,19 @@
 #include "render/gl/program.h"
 
 #include <epoxy/gl.h>
-
 #include <glm/gtc/type_ptr.hpp>
+
 #include <vector>
 
 namespace whorl::gl {
 namespace {
 
-void deleteProgram(unsigned name) { glDeleteProgram(name); }
-void deleteShader(unsigned name) { glDeleteShader(name); }
+void deleteProgram(unsigned name) {
+    glDeleteProgram(name);
+}
+void deleteShader(unsigned name) {
+    glDeleteShader(name);
+}
 
 // One text of all included files. Files are numbered in #line, so that a fault can be named by file.
 struct Expanded {
@@ -129,7 +133,9 @@ Result<Program> Program::compute(std::string_view file, std::string_view defines
     return link(file, {{GL_COMPUTE_SHADER, file}}, defines);
 }
 
-void Program::use() const { glUseProgram(m_name.get()); }
+void Program::use() const {
+    glUseProgram(m_name.get());
+}
 
 int Program::location(std::string_view uniform) {
     const auto found = m_locations.find(uniform);
@@ -140,11 +146,15 @@ int Program::location(std::string_view uniform) {
     return place;
 }
 
-void Program::set(std::string_view uniform, int value) { glProgramUniform1i(m_name.get(), location(uniform), value); }
+void Program::set(std::string_view uniform, int value) {
+    glProgramUniform1i(m_name.get(), location(uniform), value);
+}
 void Program::set(std::string_view uniform, unsigned value) {
     glProgramUniform1ui(m_name.get(), location(uniform), value);
 }
-void Program::set(std::string_view uniform, float value) { glProgramUniform1f(m_name.get(), location(uniform), value); }
+void Program::set(std::string_view uniform, float value) {
+    glProgramUniform1f(m_name.get(), location(uniform), value);
+}
 void Program::set(std::string_view uniform, glm::vec2 value) {
     glProgramUniform2f(m_name.get(), location(uniform), value.x, value.y);
 }

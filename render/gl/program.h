@@ -2,13 +2,14 @@
 // Shader programs from the sources in resources/shaders, which are compiled into the library.
 #pragma once
 
+#include "core/base/result.h"
+#include "render/gl/objects.h"
+
 #include <glm/mat4x4.hpp>
+
 #include <map>
 #include <string>
 #include <string_view>
-
-#include "core/base/result.h"
-#include "render/gl/objects.h"
 
 namespace whorl::gl {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/hair_order.h"
 
+#include "core/base/parallel.h"
+
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
-#include <glm/geometric.hpp>
 #include <limits>
-
-#include "core/base/parallel.h"
 
 namespace whorl {
 namespace {
@@ -53,8 +54,8 @@ bool HairOrder::update(const Strands& strands, const HairDetail& detail, const g
                     const auto vertex = std::min(static_cast<std::uint32_t>(place), vertices - 1);
                     const auto next = std::min(vertex + 1, vertices - 1);
                     const float t = place - static_cast<float>(vertex);
-                    const glm::vec3 p = strands.positions[first + vertex] * (1.0f - t) +
-                                        strands.positions[first + next] * t;
+                    const glm::vec3 p =
+                        strands.positions[first + vertex] * (1.0f - t) + strands.positions[first + next] * t;
                     depth = glm::dot(p - eye, forward);
                 }
                 m_depths[hair * pieces + piece] = depth;

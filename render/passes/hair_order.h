@@ -2,11 +2,12 @@
 // Which hairs are drawn with how many points, and in which order: far segments first, so that thin hair blends right.
 #pragma once
 
-#include <cstdint>
-#include <glm/vec3.hpp>
-#include <vector>
-
 #include "core/hair/strands.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace whorl {
 
@@ -21,8 +22,8 @@ struct HairDetail {
     }
 };
 
-/// Segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way that the eye looks).
-/// Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
+/// Segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way that the eye
+/// looks). Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
 class HairOrder {
 public:
     /// Recomputes only when something differs from the last call. True when it did.

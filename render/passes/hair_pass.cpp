@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/hair_pass.h"
 
-#include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/base/parallel.h"
 #include "core/base/random.h"
 #include "core/surface/surface_point.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 namespace whorl {
 namespace {
@@ -70,8 +70,7 @@ void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceM
     m_first.upload(m_strands->firstVertex);
     m_roots.upload(rootInfo(*m_strands, mesh));
     ++uploads.strands;
-    uploads.bytes +=
-        m_positions.size() + m_widths.size() + m_colours.size() + m_first.size() + m_roots.size();
+    uploads.bytes += m_positions.size() + m_widths.size() + m_colours.size() + m_first.size() + m_roots.size();
 }
 
 void HairPass::prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward) {

@@ -2,15 +2,15 @@
 // Hair as camera-facing ribbons, lit along the strand.
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "core/hair/strands.h"
 #include "core/model/surface_mesh.h"
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
 #include "render/passes/hair_order.h"
 #include "render/passes/map_texture.h"
+
+#include <memory>
+#include <vector>
 
 namespace whorl {
 

@@ -10,9 +10,12 @@ namespace {
 gl::Format formatOf(const Map& map) {
     const bool colour = map.channels() == 3;
     switch (map.format()) {
-        case TexelFormat::U8: return !colour ? gl::Format::R8 : map.srgb ? gl::Format::Rgb8Srgb : gl::Format::Rgb8;
-        case TexelFormat::U16: return colour ? gl::Format::Rgb16 : gl::Format::R16;
-        case TexelFormat::F32: return colour ? gl::Format::Rgb32F : gl::Format::R32F;
+        case TexelFormat::U8:
+            return !colour ? gl::Format::R8 : map.srgb ? gl::Format::Rgb8Srgb : gl::Format::Rgb8;
+        case TexelFormat::U16:
+            return colour ? gl::Format::Rgb16 : gl::Format::R16;
+        case TexelFormat::F32:
+            return colour ? gl::Format::Rgb32F : gl::Format::R32F;
     }
     return gl::Format::R8;
 }

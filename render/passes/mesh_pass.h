@@ -2,15 +2,15 @@
 // The mesh with its textures, and one map of the groom in colour over it.
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "core/model/groom.h"
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
 #include "render/passes/map_texture.h"
 #include "render/view_settings.h"
+
+#include <map>
+#include <string>
+#include <vector>
 
 namespace whorl {
 

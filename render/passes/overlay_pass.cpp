@@ -67,8 +67,8 @@ void OverlayPass::draw(const OverlayState& overlay, glm::ivec2 size) {
         list->AddCircle(centre, overlay.brushRadius, IM_COL32(255, 255, 255, 225), corners, 1.5f);
         const float strength = std::clamp(overlay.brushStrength, 0.0f, 1.0f);
         if (strength > 0.0f) {
-            list->AddCircle(centre, std::max(overlay.brushRadius * strength, 1.0f), IM_COL32(255, 190, 90, 150), corners,
-                            1.0f);
+            list->AddCircle(centre, std::max(overlay.brushRadius * strength, 1.0f), IM_COL32(255, 190, 90, 150),
+                            corners, 1.0f);
         }
         list->AddCircleFilled(centre, 1.75f, IM_COL32(255, 255, 255, 225));
     }
@@ -85,8 +85,10 @@ void OverlayPass::draw(const OverlayState& overlay, glm::ivec2 size) {
     m_program.set("viewportPixels", glm::vec2(size));
     for (int i = 0; i < data->CmdListsCount; ++i) {
         const ImDrawList& commands = *data->CmdLists[i];
-        m_vertices.upload(commands.VtxBuffer.Data, static_cast<std::size_t>(commands.VtxBuffer.Size) * sizeof(ImDrawVert));
-        m_indices.upload(commands.IdxBuffer.Data, static_cast<std::size_t>(commands.IdxBuffer.Size) * sizeof(ImDrawIdx));
+        m_vertices.upload(commands.VtxBuffer.Data,
+                          static_cast<std::size_t>(commands.VtxBuffer.Size) * sizeof(ImDrawVert));
+        m_indices.upload(commands.IdxBuffer.Data,
+                         static_cast<std::size_t>(commands.IdxBuffer.Size) * sizeof(ImDrawIdx));
         static_assert(sizeof(ImDrawVert) == 20 && sizeof(ImDrawIdx) == 2);
         m_vertices.bindStorage(0);
         m_indices.bindIndices();

@@ -2,11 +2,11 @@
 // Brush circle and hints over the picture, by Dear ImGui.
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
 #include "render/view_settings.h"
+
+#include <glm/vec2.hpp>
 
 struct ImGuiContext;
 

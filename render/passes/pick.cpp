@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/pick.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+
+#include <algorithm>
 #include <vector>
 
 namespace whorl {
@@ -23,7 +24,8 @@ struct Projected {
 Projected project(const glm::mat4& clipFromGroom, const glm::vec3& p, glm::vec2 viewport) {
     const glm::vec4 clip = clipFromGroom * glm::vec4(p, 1.0f);
     if (clip.w <= 1e-6f) return {};
-    return {glm::vec2((clip.x / clip.w * 0.5f + 0.5f) * viewport.x, (0.5f - clip.y / clip.w * 0.5f) * viewport.y), clip.w};
+    return {glm::vec2((clip.x / clip.w * 0.5f + 0.5f) * viewport.x, (0.5f - clip.y / clip.w * 0.5f) * viewport.y),
+            clip.w};
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ std::optional<std::size_t> pickGuide(const GuideSet& guides, const SurfaceQuery*
                 if (p > b.firstPoint[i] && from.w > 0.0f && to.w > 0.0f) {
                     const glm::vec2 way = to.pixel - from.pixel;
                     const float square = glm::dot(way, way);
-                    const float t = square > 0.0f ? std::clamp(glm::dot(pixel - from.pixel, way) / square, 0.0f, 1.0f) : 0.0f;
+                    const float t =
+                        square > 0.0f ? std::clamp(glm::dot(pixel - from.pixel, way) / square, 0.0f, 1.0f) : 0.0f;
                     const float distance = glm::length(pixel - from.pixel - way * t);
                     if (distance < best.distance || (!found && distance <= radius)) {
                         // Even steps in the picture are not even in space: undo the perspective.

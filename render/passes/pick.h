@@ -2,13 +2,14 @@
 // What is under the cursor.
 #pragma once
 
+#include "core/model/guide_set.h"
+#include "core/surface/surface_query.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 
-#include "core/model/guide_set.h"
-#include "core/surface/surface_query.h"
+#include <optional>
 
 namespace whorl {
 

@@ -2,13 +2,13 @@
 // Camera and lights as every shader sees them.
 #pragma once
 
+#include "render/camera.h"
+#include "render/view_settings.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-
-#include "render/camera.h"
-#include "render/view_settings.h"
 
 namespace whorl {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/shadow_pass.h"
 
-#include <algorithm>
-#include <cmath>
+#include "render/gl/draw.h"
+
 #include <glm/geometric.hpp>
 
-#include "render/gl/draw.h"
+#include <algorithm>
+#include <cmath>
 
 namespace whorl {
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/voxel_shadow.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
+#include "core/base/parallel.h"
+#include "render/passes/scene_block.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "core/base/parallel.h"
-#include "render/passes/scene_block.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace whorl {
 namespace {
@@ -22,8 +23,8 @@ constexpr std::size_t grain = 256;     // hairs
 
 // Calls deposit(cell, amount) for short steps along the drawn hairs. `toGrid` maps to cells, x y z of a grid of `n`.
 template <class Deposit>
-void walk(const Strands& strands, std::uint32_t stride, std::size_t begin, std::size_t end, const glm::mat4& toGrid, int n,
-          float countsOfArea, Deposit&& deposit) {
+void walk(const Strands& strands, std::uint32_t stride, std::size_t begin, std::size_t end, const glm::mat4& toGrid,
+          int n, float countsOfArea, Deposit&& deposit) {
     const glm::vec3 x(toGrid[0]);
     const glm::vec3 y(toGrid[1]);
     const glm::vec3 z(toGrid[2]);
@@ -45,8 +46,8 @@ void walk(const Strands& strands, std::uint32_t stride, std::size_t begin, std::
             const float length = std::sqrt(glm::dot(metres, metres));
             const float width = 0.5f * (strands.widths[vertex - 1] + strands.widths[vertex]);
             const float opacity = strands.colours[vertex].w;
-            const auto amount =
-                static_cast<std::uint32_t>(std::min(length * width * opacity * countsOfArea / static_cast<float>(steps) + 0.5f, 1e6f));
+            const auto amount = static_cast<std::uint32_t>(
+                std::min(length * width * opacity * countsOfArea / static_cast<float>(steps) + 0.5f, 1e6f));
             const float share = 1.0f / static_cast<float>(steps);
             for (int step = 0; step < steps; ++step) {
                 const glm::vec3 p = fromGrid + way * ((static_cast<float>(step) + 0.5f) * share);
@@ -64,7 +65,9 @@ void walk(const Strands& strands, std::uint32_t stride, std::size_t begin, std::
     }
 }
 
-std::size_t drawnHairs(const Strands& strands, std::uint32_t stride) { return (strands.count() + stride - 1) / stride; }
+std::size_t drawnHairs(const Strands& strands, std::uint32_t stride) {
+    return (strands.count() + stride - 1) / stride;
+}
 
 void add(std::uint32_t& cell, std::uint32_t amount) {
     std::atomic_ref<std::uint32_t>(cell).fetch_add(amount, std::memory_order_relaxed);
@@ -114,7 +117,8 @@ void VoxelShadow::place(const Strands& strands, const glm::vec3& towardsLight) {
         box.max = glm::max(box.max, part.max);
     }
     // Two empty voxels around: outside the volume the texture repeats its border, which must mean no hair.
-    const glm::vec3 extent = glm::max(box.size(), glm::vec3(1e-4f)) * (static_cast<float>(side) / static_cast<float>(side - 4));
+    const glm::vec3 extent =
+        glm::max(box.size(), glm::vec3(1e-4f)) * (static_cast<float>(side) / static_cast<float>(side - 4));
     const glm::vec3 low = box.centre() - extent * 0.5f;
     const glm::vec3 scale(1.0f / extent.x, 1.0f / extent.y, 1.0f / extent.z);
     m_voxel = extent / static_cast<float>(side);
@@ -136,7 +140,8 @@ void VoxelShadow::build(const Strands& strands, std::uint32_t stride, const glm:
     place(strands, towardsLight);
     m_counts.resize(cells);
     parallelFor(cells, slice * 8, [&](std::size_t begin, std::size_t end) {
-        std::fill(m_counts.begin() + static_cast<std::ptrdiff_t>(begin), m_counts.begin() + static_cast<std::ptrdiff_t>(end), 0u);
+        std::fill(m_counts.begin() + static_cast<std::ptrdiff_t>(begin),
+                  m_counts.begin() + static_cast<std::ptrdiff_t>(end), 0u);
     });
     glm::mat4 toGrid = m_matrix;
     for (int column = 0; column < 4; ++column) toGrid[column] *= static_cast<float>(side);
@@ -218,7 +223,8 @@ void AmbientVolume::build(const Strands& strands, std::uint32_t stride) {
     // Cubic cells, so that all directions count alike.
     const Bounds box = vertexBounds(strands);
     const glm::vec3 extents = box.size();
-    const float extent = std::max({extents.x, extents.y, extents.z, 1e-4f}) * (static_cast<float>(n) / static_cast<float>(n - 4));
+    const float extent =
+        std::max({extents.x, extents.y, extents.z, 1e-4f}) * (static_cast<float>(n) / static_cast<float>(n - 4));
     m_scale = glm::vec3(1.0f / extent);
     m_offset = glm::vec3(0.5f) - box.centre() * m_scale;
     const float cell = extent / static_cast<float>(n);
@@ -286,8 +292,8 @@ void AmbientVolume::build(const Strands& strands, std::uint32_t stride) {
             }
             const glm::vec3 bent(sum);
             const float length = glm::length(bent);
-            m_texels[at] = glm::vec4(length > 1e-3f ? bent / length : glm::vec3(0.0f),
-                                     sum.w / static_cast<float>(ways.size()));
+            m_texels[at] =
+                glm::vec4(length > 1e-3f ? bent / length : glm::vec3(0.0f), sum.w / static_cast<float>(ways.size()));
         }
     });
 }

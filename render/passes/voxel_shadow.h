@@ -2,14 +2,15 @@
 // Hair in boxes: the light-space volume that shadows hair and skin (seed 004, section 2.3), and the ambient volume.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include "core/hair/strands.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <vector>
 
-#include "core/hair/strands.h"
+#include <array>
+#include <cstdint>
+#include <vector>
 
 // Both are made by the processor in fixed point, so that any order of additions gives the same bytes.
 
@@ -25,7 +26,8 @@ public:
     /// `towardsLight` is a unit vector. Every stride-th hair counts `stride` times. A layer is a quarter of what would
     /// cover a voxel's side, so that shadows do not depend on the grid.
     void build(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight);
-    /// The same with one thread and plain loops, additions at the nearest voxel one by one; for tests and the benchmark.
+    /// The same with one thread and plain loops, additions at the nearest voxel one by one; for tests and the
+    /// benchmark.
     void buildReference(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight);
 
     /// size cubed; x fastest, z from the light inwards; 65535 means fullLayers.
