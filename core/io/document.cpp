@@ -102,12 +102,21 @@ Result<OpenedDocument> openDocument(const std::filesystem::path& file, Progress&
 
 std::vector<std::uint8_t> documentBytes(const Groom& groom) {
     Progress progress;
-    auto bytes = encoded(groom, progress);
+    auto bytes = documentBytes(groom, progress);
     return bytes ? std::move(*bytes) : std::vector<std::uint8_t>();
+}
+
+Result<std::vector<std::uint8_t>> documentBytes(const Groom& groom, Progress& progress) {
+    return guarded("The document", [&] { return encoded(groom, progress); });
 }
 
 Result<OpenedDocument> documentFromBytes(std::span<const std::uint8_t> bytes, const std::string& name) {
     Progress progress;
+    return documentFromBytes(bytes, name, progress);
+}
+
+Result<OpenedDocument> documentFromBytes(std::span<const std::uint8_t> bytes, const std::string& name,
+                                         Progress& progress) {
     return guarded(name, [&] { return decoded(bytes, name, progress); });
 }
 

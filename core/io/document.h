@@ -2,11 +2,12 @@
 // NAME.whorl: the artist's document.
 #pragma once
 
-#include <filesystem>
-
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/model/groom.h"
+
+#include <filesystem>
+#include <span>
 
 namespace whorl {
 
@@ -24,7 +25,11 @@ Result<OpenedDocument> openDocument(const std::filesystem::path& file, Progress&
 
 /// Container bytes in memory: what saveDocument writes. For journals, tests and fuzzing.
 std::vector<std::uint8_t> documentBytes(const Groom& groom);
+Result<std::vector<std::uint8_t>> documentBytes(const Groom& groom, Progress& progress);
+/// `name` is the file for the sentences.
 Result<OpenedDocument> documentFromBytes(std::span<const std::uint8_t> bytes, const std::string& name);
+Result<OpenedDocument> documentFromBytes(std::span<const std::uint8_t> bytes, const std::string& name,
+                                         Progress& progress);
 
 /// True when the file begins as a document does.
 bool isDocument(const std::filesystem::path& file);

@@ -32,7 +32,7 @@ private:
     int m_lock = -1;
 };
 
-/// A journal that no running program holds: work to offer.
+/// A journal that no running program holds: work to offer, newest first.
 struct Recovery {
     std::filesystem::path journal;
     std::filesystem::path document;  ///< empty for unnamed work
