@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/commands/facts.h"
+
+#include "core/param/path.h"
+#include "core/surface/surface_point.h"
+
+#include <nlohmann/json.hpp>
+
+namespace whorl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vectorJson(const glm::vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string_view formatName(TexelFormat format) {
+    return format == TexelFormat::U8 ? "8 bit" : format == TexelFormat::U16 ? "16 bit" : "float";
+}
+
+double squareMetres(const SurfaceMesh& mesh) {
+    double sum = 0.0;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) sum += triangleArea(mesh, t);
+    return sum;
+}
+
+}  // namespace
+
+std::string groomFactsText(const Groom& groom) {
+    const SurfaceMesh& mesh = *groom.mesh;
+    const Bounds bounds = boundsOf(mesh);
+    const auto metres = [](float value) { return paramText(static_cast<double>(value)); };
+    std::string text;
+    const auto line = [&](const std::string& name, const std::string& value) { text += name + ": " + value + "\n"; };
+    line("triangles", std::to_string(mesh.triangleCount()));
+    line("vertices", std::to_string(mesh.positions.size()));
+    if (!bounds.empty()) {
+        line("size",
+             metres(bounds.size().x) + " x " + metres(bounds.size().y) + " x " + metres(bounds.size().z) + " m");
+    }
+    line("UVs", mesh.madeAtlas ? "made by Whorl" : "from the file");
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        const bool grows = groom.growsHair(static_cast<std::uint32_t>(i));
+        line("part", mesh.parts[i].name + ", " + std::to_string(mesh.parts[i].triangleCount) + " triangles" +
+                         (grows ? "" : ", grows no hair"));
+    }
+    for (const MapSet::Entry& entry : groom.maps.entries()) {
+        line("map", entry.name + ", " + std::to_string(entry.map->width()) + " x " +
+                        std::to_string(entry.map->height()) + ", " +
+                        (entry.map->channels() == 1 ? "numbers" : "colours") + ", " +
+                        std::string(formatName(entry.map->format())));
+    }
+    for (std::size_t g = 0; g < groom.groups->size(); ++g) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) count += groom.guides.group(i) == g ? 1u : 0u;
+        line("group", (*groom.groups)[g].name + ", " + std::to_string(count) + " guides of " +
+                          std::to_string((*groom.groups)[g].params.general.segments + 1) + " points");
+    }
+    line("guides", std::to_string(groom.guides.count()));
+    line("hairs", std::to_string(groom.counts->hairs));
+    return text;
+}
+
+std::string groomFactsJson(const Groom& groom, const Problems& problems, const std::string& kind) {
+    const SurfaceMesh& mesh = *groom.mesh;
+    const Bounds bounds = boundsOf(mesh);
+    Json json;
+    json["kind"] = kind;
+    json["triangles"] = mesh.triangleCount();
+    json["vertices"] = mesh.positions.size();
+    if (!bounds.empty()) json["bounds"] = {{"min", vectorJson(bounds.min)}, {"max", vectorJson(bounds.max)}};
+    json["area"] = squareMetres(mesh);
+    json["made_atlas"] = mesh.madeAtlas;
+    json["parts"] = Json::array();
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        json["parts"].push_back({{"name", mesh.parts[i].name},
+                                 {"triangles", mesh.parts[i].triangleCount},
+                                 {"grows_hair", groom.growsHair(static_cast<std::uint32_t>(i))}});
+    }
+    json["maps"] = Json::array();
+    for (const MapSet::Entry& entry : groom.maps.entries()) {
+        json["maps"].push_back({{"name", entry.name},
+                                {"width", entry.map->width()},
+                                {"height", entry.map->height()},
+                                {"channels", entry.map->channels()},
+                                {"format", formatName(entry.map->format())}});
+    }
+    json["groups"] = Json::array();
+    for (const Group& group : *groom.groups) json["groups"].push_back(group.name);
+    json["guides"] = groom.guides.count();
+    Json parameters = Json::object();
+    for (const std::string& path : groomPaths(groom)) {
+        const auto value = groomValue(groom, path);
+        if (!value) continue;
+        std::visit(
+            [&](const auto& v) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, glm::vec3>) {
+                    parameters[path] = vectorJson(v);
+                } else {
+                    parameters[path] = v;
+                }
+            },
+            *value);
+    }
+    json["parameters"] = std::move(parameters);
+    json["problems"] = problems;
+    // Names come from strangers' files and need not be UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace whorl
