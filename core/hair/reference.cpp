@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/reference.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-
 #include "core/base/noise.h"
 #include "core/base/polynomials.h"
 #include "core/hair/curve.h"
@@ -15,6 +8,14 @@
 #include "core/hair/outside.h"
 #include "core/hair/roots.h"
 #include "core/hair/traits.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace whorl {
 namespace {

@@ -2,14 +2,14 @@
 // Generated hair in files that other programs read; one source a format.
 #pragma once
 
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/hair/generate.h"
+
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
-
-#include "core/base/progress.h"
-#include "core/base/result.h"
-#include "core/hair/generate.h"
 
 namespace whorl {
 
@@ -35,7 +35,8 @@ const HairFormat* hairFormatFor(const std::filesystem::path& file);
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,
                                 Progress& progress);
 
-/// Curves from a .hair file (Cem Yuksel): points of each strand, metres as stored.
+/// Curves from a .hair file (Cem Yuksel): points of each strand, metres as stored. Every count of the header is checked
+/// against the bytes that are there. Strands of a single point are left out.
 Result<std::vector<std::vector<glm::vec3>>> readHairFile(const std::filesystem::path& file);
 
 }  // namespace whorl

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/hair_formats.h"
+#include "core/io/spill_file.h"
+#include "core/model/map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace whorl {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file is written as it lies in memory");
+
+struct PlyVertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    float width;
+    std::uint8_t red, green, blue, alpha;
+};
+static_assert(sizeof(PlyVertex) == 32);
+
+struct PlyEdge {
+    std::int32_t from, to;
+};
+
+std::uint8_t byteOf(float value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+}
+
+class PlyWriter : public HairWriter {
+public:
+    PlyWriter(SafeFile file, SpillFile vertices, SpillFile edges, std::string name)
+        : m_file(std::move(file)),
+          m_vertices(std::move(vertices)),
+          m_edges(std::move(edges)),
+          m_name(std::move(name)) {}
+
+    Result<void> add(const Strands& block) override {
+        const std::uint64_t base = m_vertices.written() / sizeof(PlyVertex);
+        if (base + block.vertexCount() > std::uint64_t{std::numeric_limits<std::int32_t>::max()})
+            return Error{m_name + ": PLY can not count more than 2147483647 vertices; write fewer hairs or parts."};
+        std::vector<PlyVertex> vertices(block.vertexCount());
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const glm::vec4& colour = block.colours[v];
+            vertices[v] = {block.positions[v],
+                           block.normals[v],
+                           block.widths[v],
+                           byteOf(srgbFromLinear(std::min(colour.x, 1.0f))),
+                           byteOf(srgbFromLinear(std::min(colour.y, 1.0f))),
+                           byteOf(srgbFromLinear(std::min(colour.z, 1.0f))),
+                           byteOf(colour.w)};
+        }
+        std::vector<PlyEdge> edges;
+        edges.reserve(vertices.size());
+        for (std::size_t i = 0; i < block.count(); ++i)
+            for (std::uint32_t v = block.firstVertex[i]; v + 1 < block.firstVertex[i + 1]; ++v)
+                edges.push_back({static_cast<std::int32_t>(base + v), static_cast<std::int32_t>(base + v + 1)});
+        if (Result<void> done = m_vertices.write(vertices.data(), vertices.size() * sizeof(PlyVertex)); !done)
+            return done;
+        return m_edges.write(edges.data(), edges.size() * sizeof(PlyEdge));
+    }
+
+    Result<void> finish() override {
+        const std::string header =
+            "ply\nformat binary_little_endian 1.0\ncomment hair of Whorl, metres, Y up\n"
+            "element vertex " +
+            std::to_string(m_vertices.written() / sizeof(PlyVertex)) +
+            "\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float nx\nproperty float ny\nproperty float nz\nproperty float width\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "property uchar alpha\nelement edge " +
+            std::to_string(m_edges.written() / sizeof(PlyEdge)) +
+            "\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+        if (Result<void> done = m_file.write(header.data(), header.size()); !done) return done;
+        if (Result<void> done = m_vertices.moveTo(m_file); !done) return done;
+        if (Result<void> done = m_edges.moveTo(m_file); !done) return done;
+        return m_file.commit();
+    }
+
+private:
+    SafeFile m_file;
+    SpillFile m_vertices;
+    SpillFile m_edges;
+    std::string m_name;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<HairWriter>> openHairPly(const std::filesystem::path& file) {
+    Result<SafeFile> safe = SafeFile::create(file);
+    if (!safe) return safe.error();
+    Result<SpillFile> vertices = SpillFile::create(file);
+    if (!vertices) return vertices.error();
+    Result<SpillFile> edges = SpillFile::create(file);
+    if (!edges) return edges.error();
+    return std::unique_ptr<HairWriter>(
+        std::make_unique<PlyWriter>(std::move(*safe), std::move(*vertices), std::move(*edges), file.string()));
+}
+
+}  // namespace whorl
