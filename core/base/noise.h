@@ -50,15 +50,19 @@ struct Cell {
     std::int32_t hash[8];
 };
 
-static inline std::int32_t floorToInt(float x) {
-    // Beyond a billion cells a float has no fraction; the limit keeps the conversion defined.
+// Beyond a billion cells a float has no fraction; the limit keeps what follows defined.
+static inline float limited(float x) {
     const float low = x < -1e9f ? -1e9f : x;
-    const float limited = low > 1e9f ? 1e9f : low;
-    const std::int32_t i = static_cast<std::int32_t>(limited);
-    return i - (static_cast<float>(i) > limited ? 1 : 0);
+    return low > 1e9f ? 1e9f : low;
 }
 
-static inline Cell cellAt(float x, float y, float z) {
+static inline std::int32_t floorToInt(float x) {
+    const std::int32_t i = static_cast<std::int32_t>(x);
+    return i - (static_cast<float>(i) > x ? 1 : 0);
+}
+
+static inline Cell cellAt(float placeX, float placeY, float placeZ) {
+    const float x = limited(placeX), y = limited(placeY), z = limited(placeZ);
     const std::int32_t ix = floorToInt(x), iy = floorToInt(y), iz = floorToInt(z);
     const std::int32_t X = ix & 255, Y = iy & 255, Z = iz & 255;
     const std::int32_t A = permutation[X] + Y, B = permutation[X + 1] + Y;

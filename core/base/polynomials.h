@@ -13,8 +13,8 @@ struct SinCos {
 
 /// Sine and cosine of an angle of at most 2 pi either way; error below 1e-9.
 static inline SinCos sinCos(double angle) {
-    // Taylor series of a quarter of the angle, doubled twice.
-    const double x = angle * 0.25, q = x * x;
+    // Taylor series of an eighth of the angle, doubled three times.
+    const double x = angle * 0.125, q = x * x;
     double s =
         x * (1 + q * (-1.0 / 6 +
                       q * (1.0 / 120 +
@@ -22,7 +22,7 @@ static inline SinCos sinCos(double angle) {
     double c =
         1 + q * (-0.5 + q * (1.0 / 24 +
                              q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 + q * (1.0 / 479001600.0))))));
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 3; ++i) {
         const double doubled = 2 * s * c;
         c = c * c - s * s;
         s = doubled;

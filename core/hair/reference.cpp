@@ -113,7 +113,8 @@ std::vector<glm::vec3> referenceNormals(std::span<const glm::vec3> points, const
     return normals;
 }
 
-Result<Strands> generateReference(const Groom& groom, const GenerateOptions& options, Progress& progress) {
+Result<Strands> generateReference(const Groom& groom, const Surface& surface, const GenerateOptions& options,
+                                  Progress& progress) {
     const DensityLookup density(groom);
     const Result<SubTriangleSampler> sampler =
         SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
@@ -121,7 +122,6 @@ Result<Strands> generateReference(const Groom& groom, const GenerateOptions& opt
     Strands strands;
     if (sampler->empty()) return strands;
     const GuideIndex index(groom);
-    const Surface surface(groom.mesh);
     const TraitLookup lookup(groom);
     const bool outside = std::any_of(groom.groups->begin(), groom.groups->end(),
                                      [](const Group& group) { return group.params.general.keepOutside; });

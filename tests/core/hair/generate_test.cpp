@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/generate.h"
+
+#include "core/base/parallel.h"
+#include "core/base/simd.h"
+#include "core/hair/curve.h"
+#include "core/hair/reference.h"
+#include "core/sampling/density.h"
+#include "tests/support/shapes.h"
+
+#include <glm/geometric.hpp>
+
+#include <QtTest>
+#include <cmath>
+
+using namespace whorl;
+
+namespace {
+
+Strands grown(const Groom& groom, GenerateOptions options = {}) {
+    static SurfaceCache surfaces;
+    Generator generator;
+    generator.setSurface(surfaces.get(groom.mesh));
+    Progress progress;
+    Result<Strands> strands = generator.generate(groom, options, progress);
+    return strands ? std::move(*strands) : Strands{};
+}
+
+std::uint64_t digestOf(const Strands& strands) {
+    Hasher hasher;
+    strands.addTo(hasher);
+    return hasher.digest();
+}
+
+GeneralParams& general(Groom& groom, std::size_t group = 0) {
+    return groom.groups.edit()[group].params.general;
+}
+
+// A sphere with bent guides in two groups that a map divides, and every modifier at work.
+Groom busyGroom() {
+    Groom groom = testing::groomOn(testing::sphere(20, 40), 150, 12);
+    groom.groups.edit().push_back({"other"});
+    Map halves(64, 64, 1, TexelFormat::U8, 0.0f), ramp(32, 32, 1, TexelFormat::F32, 1.0f);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 32; x < 64; ++x) halves.setTexel(x, y, 0, 1.0f / 255.0f);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) ramp.setTexel(x, y, 0, static_cast<float>(y) / 31.0f);
+    groom.maps.set("halves", halves);
+    groom.maps.set("ramp", ramp);
+    groom.counts.edit().groupMap.name = "halves";
+    for (std::size_t g = 0; g < groom.guides.count(); ++g) {
+        if (g % 2) groom.guides.setGroup(g, 1);
+        const std::span<glm::vec3> points = groom.guides.editPoints(g);
+        for (std::size_t v = 1; v < points.size(); ++v) {
+            const float along = static_cast<float>(v) / static_cast<float>(points.size());
+            points[v] += along * along * glm::vec3(0.02f * std::sin(static_cast<float>(g)), -0.06f, 0.01f);
+        }
+    }
+    for (Group& group : groom.groups.edit()) {
+        HairParams& p = group.params;
+        p.general.segments = 12;
+        p.general.keepOutside = false;
+        p.general.cut = {1.0f, "ramp"};
+        p.general.randomScale = {0.4f, "ramp"};
+        p.colour.hueVariation.value = 0.3f;
+        p.colour.valueVariation.value = 0.3f;
+        p.colour.mutants.value = 0.1f;
+        p.frizz.root.value = 0.001f;
+        p.frizz.tip.value = 0.01f;
+        p.kink.tip.value = 0.003f;
+    }
+    groom.groups.edit()[1].params.general.samples = 5;
+    return groom;
+}
+
+}  // namespace
+
+class GenerateTest : public QObject {
+    Q_OBJECT
+private Q_SLOTS:
+    void partsCoverEveryHairOnce() {
+        for (const std::uint32_t count : {0u, 1u, 10u, 4294967295u}) {
+            for (const std::uint32_t parts : {1u, 2u, 3u, 7u, 4096u}) {
+                std::uint32_t next = 0;
+                for (std::uint32_t part = 0; part < parts; ++part) {
+                    const HairRange range = partRange(count, part, parts);
+                    QCOMPARE(range.first, next);
+                    QVERIFY(range.last >= range.first);
+                    next = range.last;
+                }
+                QCOMPARE(next, count);
+            }
+        }
+        QCOMPARE(partRange(10, 5, 3).first, partRange(10, 5, 3).last);
+        QCOMPARE(partRange(10, 0, 0).first, partRange(10, 0, 0).last);
+    }
+
+    void theDigestIsTheSameForAnyPartsThreadsAndLevel() {
+        const Groom groom = busyGroom();
+        Progress progress;
+        const std::uint32_t count = 3000;
+        const std::uint64_t expected = *hairDigest(groom, 1, count, progress);
+        for (const std::uint32_t parts : {2u, 3u, 7u}) QCOMPARE(*hairDigest(groom, parts, count, progress), expected);
+        for (const unsigned threads : {1u, 2u}) {
+            const ThreadLimit limit(threads);
+            QCOMPARE(*hairDigest(groom, 1, count, progress), expected);
+        }
+        for (const SimdLevel level : {SimdLevel::Plain, SimdLevel::Avx2, SimdLevel::Avx512}) {
+            setSimdLevel(level);
+            QCOMPARE(*hairDigest(groom, 1, count, progress), expected);
+        }
+        setSimdLevel(bestSimdLevel());
+        GenerateOptions options;
+        options.hairCount = count;
+        QCOMPARE(digestOf(grown(groom, options)), expected);
+        Groom other = groom;
+        other.counts.edit().seed += 1;
+        QVERIFY(*hairDigest(other, 1, count, progress) != expected);
+    }
+
+    void streamingGivesTheSameInAnyBlockSize() {
+        const Groom groom = busyGroom();
+        GenerateOptions options{2000u, 1, 3};
+        const std::uint64_t expected = digestOf(grown(groom, options));
+        for (const std::uint32_t size : {1u, 17u, 5000u}) {
+            Generator generator;
+            Progress progress;
+            Hasher hasher;
+            std::size_t most = 0;
+            QVERIFY(generator.stream(
+                groom, options, size,
+                [&](const Strands& block) {
+                    block.addTo(hasher);
+                    most = std::max(most, block.count());
+                    return true;
+                },
+                progress));
+            QCOMPARE(hasher.digest(), expected);
+            QVERIFY(most <= size);
+        }
+    }
+
+    void rootsStayOnTheSkin() {
+        const Groom groom = busyGroom();
+        const Strands strands = grown(groom, {2000u});
+        QVERIFY(strands.count() > 1000);
+        for (std::size_t i = 0; i < strands.count(); ++i) {
+            const glm::vec3 root = positionAt(*groom.mesh, strands.roots[i]);
+            QVERIFY(glm::distance(strands.positions[strands.firstVertex[i]], root) < 1e-7f);
+            if (i > 0) QVERIFY(strands.ids[i] > strands.ids[i - 1]);
+        }
+    }
+
+    void equalsTheReferenceForRandomGrooms() {
+        std::size_t hairs = 0;
+        for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+            const Groom groom = testing::randomGroom(seed);
+            Progress progress;
+            const Strands fast = grown(groom, {400u});
+            const Result<Strands> made = generateReference(groom, Surface(groom.mesh), {400u}, progress);
+            QVERIFY(made);
+            const Strands& slow = *made;
+            QCOMPARE(fast.ids, slow.ids);
+            QCOMPARE(fast.firstVertex, slow.firstVertex);
+            for (std::size_t i = 0; i < fast.count(); ++i) {
+                float length = 0;
+                for (std::uint32_t v = fast.firstVertex[i]; v + 1 < fast.firstVertex[i + 1]; ++v)
+                    length += glm::distance(slow.positions[v], slow.positions[v + 1]);
+                // Kink noise stretches what rounding does by its amount and frequency.
+                const auto& kink = (*groom.groups)[fast.groups[i]].params.kink;
+                const float steep = 4.0f * std::max(kink.root.value, kink.tip.value) *
+                                    (std::abs(kink.frequency.value.x) + std::abs(kink.frequency.value.y) +
+                                     std::abs(kink.frequency.value.z));
+                for (std::uint32_t v = fast.firstVertex[i]; v < fast.firstVertex[i + 1]; ++v) {
+                    const float apart = glm::distance(fast.positions[v], slow.positions[v]);
+                    QVERIFY2(apart <= 1e-5f * length + 2e-7f * (1.0f + steep),
+                             qPrintable(QString("seed %1 hair %2: %3 of %4").arg(seed).arg(i).arg(apart).arg(length)));
+                    QVERIFY(std::abs(fast.widths[v] - slow.widths[v]) < 1e-7f);
+                    QVERIFY(glm::distance(fast.colours[v], slow.colours[v]) < 1e-5f);
+                }
+            }
+            hairs += fast.count();
+        }
+        QVERIFY(hairs > 1000);
+    }
+
+    void normalsAreUnitAndAcross() {
+        const Groom groom = busyGroom();
+        const Strands strands = grown(groom, {3000u});
+        for (std::size_t i = 0; i < strands.count(); ++i) {
+            const std::size_t first = strands.firstVertex[i], count = strands.firstVertex[i + 1] - first;
+            const std::span<const glm::vec3> points{&strands.positions[first], count};
+            const std::vector<glm::vec3> expected = referenceNormals(points, normalAt(*groom.mesh, strands.roots[i]));
+            for (std::size_t v = 0; v < count; ++v) {
+                const glm::vec3& normal = strands.normals[first + v];
+                QVERIFY(std::abs(glm::length(normal) - 1.0f) < 1e-5f);
+                QVERIFY(std::abs(glm::dot(normal, strandTangent(points, v, normal))) < 1e-4f);
+                QVERIFY(glm::distance(normal, expected[v]) < 1e-2f);
+            }
+        }
+    }
+
+    void zeroNoiseChangesNothing() {
+        Groom groom = busyGroom();
+        for (Group& group : groom.groups.edit()) group.params.frizz.root.value = group.params.frizz.tip.value = 0.0f;
+        for (Group& group : groom.groups.edit()) group.params.kink.tip.value = 0.0f;
+        const std::uint64_t expected = digestOf(grown(groom, {1000u}));
+        for (Group& group : groom.groups.edit()) {
+            group.params.frizz.frequency.value = glm::vec3(700.0f);
+            group.params.kink.frequency.value = glm::vec3(900.0f);
+        }
+        QCOMPARE(digestOf(grown(groom, {1000u})), expected);
+        groom.maps.set("black", Map(4, 4, 1, TexelFormat::U8, 0.0f));
+        for (Group& group : groom.groups.edit()) group.params.frizz.tip = {0.5f, "black"};
+        QCOMPARE(digestOf(grown(groom, {1000u})), expected);
+        for (Group& group : groom.groups.edit()) group.params.frizz.tip = {0.5f, ""};
+        QVERIFY(digestOf(grown(groom, {1000u})) != expected);
+    }
+
+    void aHairNeverDrawsOnAnotherGroup() {
+        Groom groom = busyGroom();
+        const Strands before = grown(groom, {2000u});
+        for (std::size_t g = 0; g < groom.guides.count(); ++g) {
+            if (groom.guides.group(g) != 1) continue;
+            for (glm::vec3& p : groom.guides.editPoints(g).subspan(1)) p += glm::vec3(0.05f, 0.02f, 0.0f);
+        }
+        const Strands after = grown(groom, {2000u});
+        QCOMPARE(before.ids, after.ids);
+        std::size_t moved = 0, kept = 0;
+        for (std::size_t i = 0; i < before.count(); ++i) {
+            const std::uint32_t tip = before.firstVertex[i + 1] - 1;
+            const bool same = before.positions[tip] == after.positions[tip];
+            QCOMPARE(same, before.groups[i] == 0);
+            ++(same ? kept : moved);
+        }
+        QVERIFY(moved > 100 && kept > 100);
+    }
+
+    void groupsAndDensityFollowTheirMaps() {
+        Groom groom = busyGroom();
+        general(groom).density = {1.0f, "ramp"};
+        const DensityLookup density(groom);
+        const Strands strands = grown(groom, {3000u});
+        QVERIFY(strands.count() > 1000);
+        for (std::size_t i = 0; i < strands.count(); ++i) {
+            QCOMPARE(static_cast<int>(strands.groups[i]), density.groupAt(strands.rootUvs[i]));
+            QVERIFY(density.at(strands.roots[i].triangle, strands.rootUvs[i]) > 0.0f);
+        }
+    }
+
+    void cuttingEndsTheCurveEarlier() {
+        Groom groom = testing::groomOn(testing::sphere(12, 24), 40, 10);
+        general(groom).keepOutside = false;
+        general(groom).segments = 10;
+        groom.groups.edit()[0].params.frizz.tip.value = 0.02f;
+        const Strands whole = grown(groom, {300u});
+        general(groom).cut.value = 0.55f;
+        const Strands cut = grown(groom, {300u});
+        QCOMPARE(whole.ids, cut.ids);
+        for (std::size_t i = 0; i < cut.count(); ++i) {
+            const std::size_t first = whole.firstVertex[i], second = cut.firstVertex[i];
+            QCOMPARE(cut.firstVertex[i + 1] - cut.firstVertex[i], 7u);
+            for (std::size_t v = 0; v < 6; ++v) QCOMPARE(cut.positions[second + v], whole.positions[first + v]);
+            const std::span<const glm::vec3> points{&whole.positions[first], 11};
+            QVERIFY(glm::distance(cut.positions[second + 6], strandPoint(points, 5.5f)) < 1e-6f);
+            QVERIFY(std::abs(cut.widths[second + 6] - (0.00009f + 0.55f * (0.00003f - 0.00009f))) < 1e-9f);
+        }
+        general(groom).cut.value = 0.0f;
+        QCOMPARE(grown(groom, {300u}).count(), std::size_t{0});
+    }
+
+    void nothingGrowsFromNothing() {
+        Groom groom = testing::groomOn(testing::sphere(12, 24), 0);
+        QCOMPARE(grown(groom).count(), std::size_t{0});
+        groom = testing::groomOn(testing::sphere(12, 24), 10);
+        QCOMPARE(grown(groom, {0u}).count(), std::size_t{0});
+        QVERIFY(grown(groom, {100u}).count() == 100);
+        general(groom).density.value = 0.0f;
+        QCOMPARE(grown(groom, {100u}).count(), std::size_t{0});
+        general(groom).density.value = 1.0f;
+        general(groom).scale.value = 0.0f;
+        QCOMPARE(grown(groom, {100u}).count(), std::size_t{0});
+    }
+
+    void cancelledWorkSaysSo() {
+        const Groom groom = busyGroom();
+        Generator generator;
+        Progress stopped;
+        stopped.cancel();
+        const Result<Strands> none = generator.generate(groom, {1000u}, stopped);
+        QVERIFY(!none && none.error().cancelled);
+        Progress progress;
+        QVERIFY(!generator.stream(
+            groom, {1000u}, 10, [](const Strands&) { return false; }, progress));
+        const Result<Strands> all = generator.generate(groom, {1000u}, progress);
+        QVERIFY(all);
+        QCOMPARE(digestOf(*all), digestOf(grown(groom, {1000u})));
+    }
+
+    void aKnownHair() {
+        // One straight guide on a plane: every hair is the guide moved to its root.
+        Groom groom = testing::groomOn(testing::plane(2), 1, 4, 0.2f);
+        general(groom).segments = 4;
+        const Strands strands = grown(groom, {50u});
+        QCOMPARE(strands.count(), std::size_t{50});
+        for (std::size_t i = 0; i < strands.count(); ++i) {
+            const glm::vec3 root = positionAt(*groom.mesh, strands.roots[i]);
+            for (std::uint32_t v = 0; v < 5; ++v) {
+                const glm::vec3 expected = root + glm::vec3(0, 0.05f * static_cast<float>(v), 0);
+                QVERIFY(glm::distance(strands.positions[strands.firstVertex[i] + v], expected) < 1e-6f);
+            }
+            QCOMPARE(strands.widths[strands.firstVertex[i]], 0.00009f);
+            QCOMPARE(strands.colours[strands.firstVertex[i]].w, 1.0f);
+        }
+    }
+};
+
+QTEST_APPLESS_MAIN(GenerateTest)
+#include "generate_test.moc"

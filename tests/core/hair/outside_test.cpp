@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/outside.h"
+
+#include "core/hair/generate.h"
+#include "tests/support/shapes.h"
+
+#include <glm/geometric.hpp>
+
+#include <QtTest>
+#include <cmath>
+
+using namespace whorl;
+
+namespace {
+
+// Guides that leave along the normal and then bow to the middle of the mesh: without help all end inside.
+void bowInwards(Groom& groom, const glm::vec3& middle) {
+    for (std::size_t g = 0; g < groom.guides.count(); ++g) {
+        const std::span<glm::vec3> points = groom.guides.editPoints(g);
+        for (std::size_t v = 1; v < points.size(); ++v) {
+            const float along = static_cast<float>(v) / static_cast<float>(points.size() - 1);
+            points[v] = glm::mix(points[v], middle, 0.5f * along * along);
+        }
+    }
+}
+
+std::size_t inside(const Strands& strands, const DistanceField& skin, float tolerance) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < strands.count(); ++i)
+        for (std::uint32_t v = strands.firstVertex[i] + 1; v < strands.firstVertex[i + 1]; ++v)
+            count += skin.distance(strands.positions[v]) < -tolerance;
+    return count;
+}
+
+}  // namespace
+
+class OutsideTest : public QObject {
+    Q_OBJECT
+private Q_SLOTS:
+    void noVertexOfASphereIsInside() {
+        Groom groom = testing::groomOn(testing::sphere(24, 48), 200, 15, 0.06f);
+        bowInwards(groom, glm::vec3(0.0f));
+        const auto surface = std::make_shared<const Surface>(groom.mesh);
+        Generator generator;
+        generator.setSurface(surface);
+        Progress progress;
+        const Strands kept = *generator.generate(groom, {2000u}, progress);
+        QCOMPARE(inside(kept, surface->skin(), 1e-5f), std::size_t{0});
+        groom.groups.edit()[0].params.general.keepOutside = false;
+        const Strands free = *generator.generate(groom, {2000u}, progress);
+        QVERIFY(inside(free, surface->skin(), 1e-5f) > 10000);
+    }
+
+    void hairOutsideStaysAndRootsNeverMove() {
+        const Surface surface{Cow<SurfaceMesh>(testing::sphere(24, 48))};
+        const DistanceField& skin = surface.skin();
+        std::vector<glm::vec3> points;
+        std::vector<float> ease;
+        for (int v = 0; v < 8; ++v) {
+            points.emplace_back(0.1f + 0.01f * static_cast<float>(v), 0.0f, 0.0f);
+            ease.push_back(std::min(1.0f, 0.3f * static_cast<float>(v)));
+        }
+        std::vector<glm::vec3> moved = points;
+        keepOutside(skin, moved, ease);
+        QCOMPARE(moved, points);
+        points[0] = {0.05f, 0.0f, 0.0f};
+        moved = points;
+        keepOutside(skin, moved, ease);
+        QCOMPARE(moved[0], points[0]);
+    }
+
+    // Moving a vertex towards and through the skin moves the result without a step.
+    void isContinuous() {
+        const Surface surface{Cow<SurfaceMesh>(testing::sphere(24, 48))};
+        const DistanceField& skin = surface.skin();
+        const std::vector<float> ease{0.0f, 1.0f};
+        glm::vec3 before(0.0f);
+        for (int step = 0; step < 2000; ++step) {
+            const float height = 0.103f - 4e-6f * static_cast<float>(step);
+            std::vector<glm::vec3> points{{0.1f, 0, 0}, glm::vec3(0.8f, 0.6f, 0.0f) * height};
+            keepOutside(skin, points, ease);
+            if (step > 0) QVERIFY(glm::distance(points[1], before) < 2e-5f);
+            QVERIFY(skin.distance(points[1]) > 0.9f * skinClearance(skin));
+            before = points[1];
+        }
+    }
+
+    // A hair through the whole head is laid around it instead of showing again on the other side.
+    void aHairThroughTheHeadGoesAround() {
+        const Surface surface{Cow<SurfaceMesh>(testing::sphere(24, 48))};
+        const DistanceField& skin = surface.skin();
+        std::vector<glm::vec3> points;
+        std::vector<float> ease;
+        for (int v = 0; v <= 30; ++v) {
+            points.emplace_back(0.09f - 0.01f * static_cast<float>(v), 0.0436f, 0.0f);
+            ease.push_back(std::min(1.0f, 0.2f * static_cast<float>(v)));
+        }
+        keepOutside(skin, points, ease);
+        for (std::size_t v = 1; v < points.size(); ++v) {
+            QVERIFY(skin.distance(points[v]) > -1e-5f);
+            QVERIFY(glm::distance(points[v], points[v - 1]) < 0.02f);
+        }
+    }
+};
+
+QTEST_APPLESS_MAIN(OutsideTest)
+#include "outside_test.moc"
