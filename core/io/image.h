@@ -2,23 +2,23 @@
 // Images in and out of maps, decoded by a separate program so that a bad file can not end this one.
 #pragma once
 
+#include "core/base/result.h"
+#include "core/model/map.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
-#include "core/base/result.h"
-#include "core/model/map.h"
-
 namespace whorl {
 
 enum class ImageUse { Data, Colour };
 
-/// Reads PNG, EXR, TIFF, JPEG, TGA, BMP, PFM or HDR. Data: one channel (mean of the colours, or the only channel); 8 and
-/// 16 bit stay, others become float. Colour: three channels; integer formats are sRGB.
-/// At most 16,384 x 16,384 and 512 MiB decoded; the header is checked first. The child process (whorl-image-worker,
-/// beside the running program or in $WHORL_IMAGE_WORKER) may take 2 GiB and 20 s.
-/// Not-a-number becomes 0, infinite and negative texels are clamped; `repairs` (may be null) then gets a sentence.
+/// Reads PNG, EXR, TIFF, JPEG, TGA, BMP, PFM or HDR. Data: one channel (mean of the colours, or the only channel); 8
+/// and 16 bit stay, others become float. Colour: three channels; integer formats are sRGB. At most 16,384 x 16,384 and
+/// 512 MiB decoded; the header is checked first. The child process (whorl-image-worker, beside the running program or
+/// in $WHORL_IMAGE_WORKER) may take 2 GiB and 20 s. Not-a-number becomes 0, infinite and negative texels are clamped;
+/// `repairs` (may be null) then gets a sentence.
 Result<Map> readImage(const std::filesystem::path& file, ImageUse use, std::vector<std::string>* repairs = nullptr);
 
 /// The same for an image inside another file (glTF buffer views and data URIs). `name` is for error texts.
