@@ -74,6 +74,12 @@ Result<ImportedMesh> importAs(std::span<const std::uint8_t> bytes, const std::st
         out.mesh = std::move(*mesh);
         decodeTextures(*raw, out, progress);
         if (progress.cancelled()) return cancelledError();
+        constexpr std::size_t most = 100;
+        if (out.problems.size() > most) {
+            const std::size_t more = out.problems.size() - most;
+            out.problems.resize(most);
+            out.problems.push_back(plainText(name) + ": " + counted(more, "more problem") + " of the same kinds.");
+        }
         return out;
     } catch (const std::bad_alloc&) {
         return meshError(name, "there is not enough memory for it", "close other programs or reduce the mesh");

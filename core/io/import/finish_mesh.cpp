@@ -17,6 +17,8 @@ namespace {
 
 // Metres from the origin up to which areas and volumes stay inside the range of float.
 constexpr float farthest = 1e9f;
+// Meshes that reach less far than this are in the wrong unit: their areas would vanish in float.
+constexpr float smallest = 1e-9f;
 // Repeats of the texture inside one triangle beyond which UVs mean nothing.
 constexpr float mostRepeats = 1024.0f;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -27,6 +29,38 @@ bool usable(const glm::vec3& p) {
 
 glm::dvec3 areaVector(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+}
+
+bool finite(const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+// Meshes in wild units, where areas overflow or vanish in float, are brought to about a metre by a power of two. One
+// stray corner is no reason: more than half of the finite triangles must lie outside.
+void rescale(RawMesh& raw, const std::string& name, Problems& problems) {
+    float largest = 0.0f;
+    std::uint64_t all = 0;
+    std::uint64_t outside = 0;
+    for (std::size_t i = 0; i + 2 < raw.corners.size(); i += 3) {
+        const glm::vec3* corner[3];
+        for (std::size_t k = 0; k < 3; ++k) corner[k] = &raw.positions[raw.corners[i + k]];
+        if (!finite(*corner[0]) || !finite(*corner[1]) || !finite(*corner[2])) continue;
+        ++all;
+        bool inside = true;
+        for (const glm::vec3* p : corner) {
+            inside = inside && usable(*p);
+            largest = std::max(largest, std::max(std::abs(p->x), std::max(std::abs(p->y), std::abs(p->z))));
+        }
+        if (!inside) ++outside;
+    }
+    const bool tooLarge = outside * 2 > all;
+    if (!tooLarge && !(largest < smallest && largest > 0.0f)) return;
+    const int power = -std::ilogb(largest);
+    for (glm::vec3& p : raw.positions) {
+        for (int k = 0; k < 3; ++k) p[k] = std::ldexp(p[k], power);
+    }
+    problems.push_back(plainText(name) + ": its coordinates are too " + (tooLarge ? "large" : "small") +
+                       " to be metres, so the mesh was scaled by 2 to the power of " + std::to_string(power) + ".");
 }
 
 // Gives bit-identical positions one number, in order of first use.
@@ -142,6 +176,7 @@ Result<SurfaceMesh> finishMesh(RawMesh raw, const std::string& name, Problems& p
         return meshError(name, "it has more than 20 million triangles", "reduce the mesh and export it again");
     }
     repairUvs(raw.cornerUvs, name, problems);
+    rescale(raw, name, problems);
 
     SurfaceMesh mesh;
     mesh.triangles.reserve(count);

@@ -78,9 +78,9 @@ Result<GltfContainer> openContainer(std::span<const std::uint8_t> bytes) {
 
 bool knownExtension(std::string_view name) {
     // None of these moves a triangle: materials, textures, lights, names. Quantised positions are read as they are.
-    for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "KHR_animation_",
-                                          "ADOBE_materials_", "EXT_texture_", "MSFT_texture_", "EXT_lights_", "VRM",
-                                          "KHR_techniques_", "KHR_node_visibility", "KHR_audio"}) {
+    for (const std::string_view prefix :
+         {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "KHR_animation_", "ADOBE_materials_",
+          "EXT_texture_", "MSFT_texture_", "EXT_lights_", "VRM", "KHR_technique", "KHR_node_visibility", "KHR_audio"}) {
         if (name.substr(0, prefix.size()) == prefix) return true;
     }
     return name == "KHR_mesh_quantization" || name == "MSFT_lod" || name == "MSFT_packing_occlusionRoughnessMetallic";

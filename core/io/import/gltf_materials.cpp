@@ -66,15 +66,16 @@ std::string GltfMaterials::texture(int number, const std::string& materialName) 
     const tinygltf::Image& image = m_model.images[static_cast<std::size_t>(source)];
     const std::string stem = std::filesystem::path(image.uri).stem().string();
     const std::string wanted = !image.name.empty() ? image.name : !stem.empty() ? stem : materialName;
-    auto bytes =
-        m_out.textures.size() < maxTextures ? imageBytes(m_model, image) : Error{"more than 64 textures are not read"};
-    if (bytes && (bytes->size() > maxImageFileBytes || m_bytes + bytes->size() > maxAllImageBytes)) {
-        bytes = Error{"it is too large"};
-    }
-    if (!bytes) {
+    const auto leaveOut = [&](const std::string& reason) {
         m_out.problems.push_back(plainText(m_name) + ": the texture " + plainText(wanted, 80) +
-                                 " is left out: " + bytes.error().message + ".");
-        return {};
+                                 " is left out: " + reason + ".");
+        return std::string();
+    };
+    if (m_out.textures.size() >= maxTextures) return leaveOut("more than 64 are not read");
+    auto bytes = imageBytes(m_model, image);
+    if (!bytes) return leaveOut(bytes.error().message);
+    if (bytes->size() > maxImageFileBytes || m_bytes + bytes->size() > maxAllImageBytes) {
+        return leaveOut("it is too large");
     }
     m_bytes += bytes->size();
     entry->second = m_names.make(wanted, "texture");

@@ -115,17 +115,22 @@ private:
     }
 
     // One of the numbers in "12/-3/4", counted from 0. Negative ones count back from the newest.
-    Result<std::uint32_t> index(std::string_view word, std::size_t present, Largest& largest, const char* what) const {
+    std::optional<std::uint64_t> index(std::string_view word, std::size_t present) const {
         const auto number = parseInteger(word);
-        if (!number || *number == 0) return wrong("'" + plainText(word, 40) + "' is no number of a " + what);
         const auto count = static_cast<long long>(present);
-        if (*number < -count || *number > static_cast<long long>(maxVertices)) {
-            return wrong(std::string("the face names ") + what + " " + std::to_string(*number) + " of " +
-                         std::to_string(present));
+        if (!number || *number == 0 || *number < -count || *number > static_cast<long long>(maxVertices)) return {};
+        return static_cast<std::uint64_t>(*number > 0 ? *number - 1 : count + *number);
+    }
+
+    Result<std::uint32_t> positionIndex(std::string_view word) {
+        const std::size_t present = m_out.mesh.positions.size();
+        const auto position = index(word, present);
+        if (position) {
+            m_largestPosition.see(*position, m_line);
+            return static_cast<std::uint32_t>(*position);
         }
-        const auto index = static_cast<std::uint64_t>(*number > 0 ? *number - 1 : count + *number);
-        largest.see(index, m_line);
-        return static_cast<std::uint32_t>(index);
+        if (parseInteger(word).value_or(0) == 0) return wrong("'" + plainText(word, 40) + "' is no number of a vertex");
+        return wrong("the face names vertex " + std::string(word) + " of " + std::to_string(present));
     }
 
     Result<void> readFace(std::string_view line) {
@@ -133,23 +138,20 @@ private:
         for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line)) {
             if (word.front() == '#') break;
             const std::size_t slash = word.find('/');
-            const auto position =
-                index(word.substr(0, slash), m_out.mesh.positions.size(), m_largestPosition, "vertex");
+            const auto position = positionIndex(word.substr(0, slash));
             if (!position) return position.error();
             std::uint32_t uv = Polygons::noUv;
             if (slash != word.npos) {
                 const std::string_view rest = word.substr(slash + 1);
                 const std::size_t second = rest.find('/');
                 const std::string_view uvWord = rest.substr(0, second);
-                if (!uvWord.empty()) {
-                    const auto got = index(uvWord, m_uvs.size(), m_largestUv, "texture coordinate");
-                    if (!got) return got.error();
-                    uv = *got;
-                }
+                // UVs and normals that are not there can be done without, vertices can not.
+                if (const auto got = index(uvWord, m_uvs.size())) uv = static_cast<std::uint32_t>(*got);
+                if (uv == Polygons::noUv && !uvWord.empty()) ++m_missingUvs;
                 if (second != rest.npos && second + 1 < rest.size()) {
-                    const auto normal = index(rest.substr(second + 1), m_normals.size(), m_largestNormal, "normal");
-                    if (!normal) return normal.error();
-                    m_normalUses.emplace_back(*position, *normal);
+                    const auto normal = index(rest.substr(second + 1), m_normals.size());
+                    if (normal) m_normalUses.emplace_back(*position, static_cast<std::uint32_t>(*normal));
+                    if (!normal) ++m_missingNormals;
                 }
             }
             m_polygons.positions.push_back(*position);
@@ -186,27 +188,43 @@ private:
         return {};
     }
 
-    Result<void> checkRange(const Largest& largest, std::size_t present, const char* what) const {
-        if (!largest.any || largest.index < present) return {};
-        return meshError(m_name, "line " + std::to_string(largest.line) + ": the face names " + what + " " +
-                                     std::to_string(largest.index + 1) + " of " + std::to_string(present));
-    }
-
     Result<RawImport> finish() {
         if (m_polygons.faceEnds.empty()) {
             return meshError(m_name, "there are no faces in it", "choose a file with a surface that hair can grow on");
         }
-        if (auto ok = checkRange(m_largestPosition, m_out.mesh.positions.size(), "vertex"); !ok) return ok.error();
-        if (auto ok = checkRange(m_largestUv, m_uvs.size(), "texture coordinate"); !ok) return ok.error();
-        if (auto ok = checkRange(m_largestNormal, m_normals.size(), "normal"); !ok) return ok.error();
+        const std::size_t present = m_out.mesh.positions.size();
+        if (m_largestPosition.any && m_largestPosition.index >= present) {
+            return meshError(m_name, "line " + std::to_string(m_largestPosition.line) + ": the face names vertex " +
+                                         std::to_string(m_largestPosition.index + 1) + " of " +
+                                         std::to_string(present));
+        }
+        for (std::uint32_t& uv : m_polygons.uvs) {
+            if (uv == Polygons::noUv || uv < m_uvs.size()) continue;
+            uv = Polygons::noUv;
+            ++m_missingUvs;
+        }
         if (!m_normalUses.empty()) {
             m_out.mesh.normals.assign(m_out.mesh.positions.size(), glm::vec3(0.0f));
-            for (const auto& [position, normal] : m_normalUses) m_out.mesh.normals[position] += m_normals[normal];
+            for (const auto& [position, normal] : m_normalUses) {
+                if (normal < m_normals.size()) {
+                    m_out.mesh.normals[position] += m_normals[normal];
+                } else {
+                    ++m_missingNormals;
+                }
+            }
         }
         makeParts();
         if (!m_anyUv) m_polygons.uvs.clear();
         cutPolygons(m_polygons, m_uvs, m_out.mesh);
         m_out.sourceTriangles = m_polygons.triangles;
+        if (m_missingUvs > 0) {
+            m_out.problems.push_back(plainText(m_name) + ": " + counted(m_missingUvs, "corner") +
+                                     " without the texture coordinate that the face names.");
+        }
+        if (m_missingNormals > 0) {
+            m_out.problems.push_back(plainText(m_name) + ": " + counted(m_missingNormals, "corner") +
+                                     " without the normal that the face names; normals were computed there.");
+        }
         if (m_linesAndPoints > 0) {
             m_out.problems.push_back(plainText(m_name) + ": " + counted(m_linesAndPoints, "line or point element") +
                                      " skipped; hair grows on faces only.");
@@ -239,14 +257,15 @@ private:
         const auto known = m_textureOf.find(image);
         if (known != m_textureOf.end()) return known->second;
         std::string& name = m_textureOf[image];
-        auto bytes = m_out.textures.size() < maxTextures ? m_neighbours.read(image, maxImageFileBytes)
-                                                         : Error{"more than 64 textures are not read"};
-        if (bytes && m_imageBytes + bytes->size() > maxAllImageBytes) bytes = Error{"the textures exceed 1 GiB"};
-        if (!bytes) {
+        const auto leaveOut = [&](const std::string& reason) {
             m_out.problems.push_back(plainText(m_name) + ": the texture " + plainText(image, 80) +
-                                     " is left out: " + bytes.error().message + ".");
-            return name;
-        }
+                                     " is left out: " + reason + ".");
+            return std::string();
+        };
+        if (m_out.textures.size() >= maxTextures) return leaveOut("more than 64 are not read");
+        auto bytes = m_neighbours.read(image, maxImageFileBytes);
+        if (!bytes) return leaveOut(bytes.error().message);
+        if (m_imageBytes + bytes->size() > maxAllImageBytes) return leaveOut("all textures together exceed 1 GiB");
         m_imageBytes += bytes->size();
         name = m_textureNames.make(std::filesystem::path(image).stem().string(), "texture");
         m_out.textures.push_back({name, std::move(*bytes), image});
@@ -262,7 +281,9 @@ private:
     std::vector<glm::vec2> m_uvs;
     std::vector<glm::vec3> m_normals;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> m_normalUses;  ///< position, normal
-    Largest m_largestPosition, m_largestUv, m_largestNormal;
+    Largest m_largestPosition;
+    std::uint64_t m_missingUvs = 0;
+    std::uint64_t m_missingNormals = 0;
     std::string m_group, m_material;
     bool m_partKnown = false;
     bool m_anyUv = false;

@@ -65,6 +65,7 @@ private:
             for (const PlyProperty& property : element.properties) {
                 if (!skipProperty(property)) return cutOff(element, i);
             }
+            m_values.endElement();
         }
         return {};
     }
@@ -105,6 +106,7 @@ private:
                                                    : *got;
                 if (slotOf[p] >= 0) value[slotOf[p]] = static_cast<float>(safe);
             }
+            m_values.endElement();
             m_out.mesh.positions.emplace_back(value[0], value[1], value[2]);
             if (normals) m_out.mesh.normals.emplace_back(value[3], value[4], value[5]);
             if (uvs) m_vertexUvs.emplace_back(value[6], value[7]);
@@ -155,6 +157,7 @@ private:
                     m_polygons.positions.push_back(*vertex);
                 }
             }
+            m_values.endElement();
             if (auto added = addFace(corners, uvs); !added) return added.error();
         }
         return {};

@@ -130,6 +130,11 @@ Result<PlyHeader> readPlyHeader(std::string_view text) {
     return header;
 }
 
+void PlyValues::endElement() {
+    if (m_encoding != PlyEncoding::Ascii) return;
+    m_rest.remove_prefix(std::min(m_rest.find_first_of("\r\n"), m_rest.size()));
+}
+
 std::optional<double> PlyValues::take(PlyType type) {
     if (m_encoding == PlyEncoding::Ascii) {
         const std::size_t begin = m_rest.find_first_not_of(" \t\r\n\v\f");

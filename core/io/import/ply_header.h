@@ -46,6 +46,8 @@ public:
     PlyValues(std::string_view bytes, PlyEncoding encoding) : m_rest(bytes), m_encoding(encoding) {}
     /// Nothing at the end of the file or where a word is no number.
     std::optional<double> take(PlyType type);
+    /// At the end of an element: drops what else stands on the line of a text file.
+    void endElement();
     std::size_t bytesLeft() const { return m_rest.size(); }
 
 private:
