@@ -3,6 +3,7 @@
 
 #include "core/io/container.h"
 #include "core/io/groom_codec.h"
+#include "core/io/guarded.h"
 #include "core/io/json_text.h"
 #include "core/io/safe_file.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 
 namespace whorl {
 namespace {
@@ -39,18 +39,6 @@ Result<OpenedDocument> decoded(std::span<const std::uint8_t> bytes, const std::s
     // What could not be repaired but does no harm, such as parameters that name maps which are not there.
     for (std::string& problem : checkGroom(opened->groom)) opened->problems.push_back(std::move(problem));
     return opened;
-}
-
-/// Library exceptions (JSON, no memory) end here.
-template <class Work>
-auto guarded(const std::string& name, Work&& work) -> decltype(work()) {
-    try {
-        return work();
-    } catch (const std::bad_alloc&) {
-        return Error{name + " needs more memory than there is."};
-    } catch (const std::exception& exception) {
-        return Error{name + " can not be handled: " + exception.what() + "."};
-    }
 }
 
 }  // namespace

@@ -2,23 +2,37 @@
 // NAME.groom: the package that the render-time library turns into hair (seed 000, section 4.2.1).
 #pragma once
 
-#include <filesystem>
-
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
+// A package is a folder, complete in itself:
+//   groom.json     what all calls share: parameters of the groups, counts, digest of all hair, and the list of parts
+//                  with their boxes; a checksum covers it
+//   shared.bin     mesh, guides and maps, once for all parts: hairs near the border of a part follow guides and lie
+//                  over skin of its neighbours, so every call reads it
+//   part-NNNN.bin  what one call alone needs to know: range and number of its hairs, exact bounding box, digest of its
+//                  hair, and the piece of the mesh that it grows on (triangles with the number of roots on each)
+// Nothing outside the folder is read, and links in it are refused.
+
 namespace whorl {
 
-/// A folder with groom.json (what all calls share) and part-NNNN.bin (one call's piece with its exact bounding box).
-/// Nothing outside the folder is read.
 struct PackagePart {
     std::string file;
     std::uint32_t firstHair = 0;
     std::uint32_t lastHair = 0;
-    Bounds bounds;  ///< of the rendered hair
+    Bounds bounds;  ///< of the rendered hair; empty when nothing grows here
     std::uint64_t bytes = 0;
+    std::uint64_t hairs = 0;                   ///< made of that range; the others were cut away
+    std::uint64_t vertices = 0;                ///< of these hairs
+    std::uint64_t digest = 0;                  ///< of the hair of this part alone
+    std::vector<std::uint32_t> triangles;      ///< with roots of this part, ascending
+    std::vector<std::uint32_t> triangleHairs;  ///< hairs on each of them
 };
 
 struct Package {
@@ -28,11 +42,14 @@ struct Package {
     Problems problems;
 };
 
-/// Writes to a temporary folder beside, reads it back, checks the digest, renames. The old package or the new one.
-/// Every part is generated once for its box. `parts` 0: counts.parts.
+/// Writes to a temporary folder beside, reads it back, generates from that and checks the digest, then puts it in
+/// place: the old package or the new one. Every part is generated once for its box. `parts` 0: counts.parts; at most
+/// 4096. A folder that holds anything but a package is refused, not replaced.
 Result<void> exportPackage(const Groom& groom, const std::filesystem::path& folder, std::uint32_t parts,
                            Progress& progress);
+/// Refuses what is broken, incomplete or newer. Does not generate; compare `digest` with hairDigest for that.
 Result<Package> openPackage(const std::filesystem::path& folder, Progress& progress);
+/// True for a folder whose groom.json begins as that of a package does.
 bool isPackage(const std::filesystem::path& folder);
 
 }  // namespace whorl

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files in a package, one at a time. Include in sources only.
+#pragma once
+
+#include "core/io/document.h"
+#include "core/io/package.h"
+
+#include <nlohmann/json.hpp>
+
+namespace whorl {
+
+inline constexpr std::uint32_t maxPackageParts = 4096;
+inline constexpr const char* packageManifest = "groom.json";
+inline constexpr const char* packageShared = "shared.bin";
+
+/// "part-0007.bin"
+std::string packagePartName(std::uint32_t part);
+/// True for the names that packages use.
+bool isPackageFileName(const std::string& name);
+
+/// A file right inside the folder; links are refused.
+Result<std::vector<std::uint8_t>> readPackageFile(const std::filesystem::path& folder, const std::string& name,
+                                                  std::uint64_t maxBytes);
+/// Bytes written.
+Result<std::uint64_t> writePackageFile(const std::filesystem::path& folder, const std::string& name,
+                                       const std::vector<std::uint8_t>& bytes, Progress& progress);
+
+/// shared.bin: mesh, guides and maps of `groom`. The rest of the manifest (groups, counts) goes to `parameters`.
+Result<std::vector<std::uint8_t>> sharedBytes(const Groom& groom, nlohmann::json& parameters, Progress& progress);
+Result<OpenedDocument> groomFromShared(std::span<const std::uint8_t> bytes, const nlohmann::json& parameters,
+                                       const std::string& name, Progress& progress);
+
+Result<std::vector<std::uint8_t>> partBytes(const PackagePart& part, Progress& progress);
+/// Sets all but `file` and `bytes`.
+Result<PackagePart> partFromBytes(std::span<const std::uint8_t> bytes, const std::string& name, Progress& progress);
+
+/// Null for an empty box, else its two corners.
+nlohmann::json boundsToJson(const Bounds& bounds);
+/// False when it is neither.
+bool boundsFromJson(const nlohmann::json& json, Bounds& bounds);
+
+}  // namespace whorl
