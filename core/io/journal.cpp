@@ -219,6 +219,7 @@ Result<OpenedDocument> openRecovery(const Recovery& recovery, Progress& progress
 void deleteRecovery(const Recovery& recovery) {
     const Lock lock(recovery.journal);
     if (!lock.isFree()) return;
+    sweepOrphans(recovery.journal);
     unlink(recovery.journal.c_str());
     unlink(lockOf(recovery.journal).c_str());
 }

@@ -180,7 +180,7 @@ void restoreFolder(const fs::path& folder) {
     std::error_code error;
     const fs::path waiting = waitingPlace(target);
     if (!fs::is_directory(fs::symlink_status(waiting, error))) return;
-    if (!fs::exists(fs::symlink_status(target, error)) && !error) ::rename(waiting.c_str(), target.c_str());
+    if (!fs::exists(fs::symlink_status(target, error))) ::rename(waiting.c_str(), target.c_str());
 }
 
 }  // namespace whorl

@@ -35,6 +35,7 @@ std::size_t entries(const fs::path& folder) {
 Groom smallGroom(int hairs = 300) {
     Groom groom = testing::groomOn(testing::sphere(8, 12), 20, 6);
     groom.counts.edit().hairs = hairs;
+    groom.groups.edit()[0].params.general.keepOutside = false;  // quick: no distance field
     return groom;
 }
 
@@ -65,7 +66,7 @@ private Q_SLOTS:
     void givesTheSameHair() {
         const fs::path folder = testing::scratchFolder("package-same");
         Progress progress;
-        for (std::uint32_t seed = 0; seed < 8; ++seed) {
+        for (std::uint32_t seed = 0; seed < 4; ++seed) {
             const Groom groom = testing::randomGroom(seed);
             const fs::path package = folder / ("a" + std::to_string(seed) + ".groom");
             const std::uint32_t parts = seed % 4;
@@ -80,13 +81,13 @@ private Q_SLOTS:
             QCOMPARE(opened->digest, digestOf(groom));
             QCOMPARE(digestOf(opened->groom), digestOf(groom));
         }
-        QCOMPARE(entries(folder), std::size_t{8});
+        QCOMPARE(entries(folder), std::size_t{4});
     }
 
     void sameGroomSameBytes() {
         const fs::path folder = testing::scratchFolder("package-bytes");
         Progress progress;
-        const Groom groom = testing::randomGroom(3);
+        const Groom groom = smallGroom();
         for (const char* name : {"a.groom", "b.groom"}) QVERIFY(exportPackage(groom, folder / name, 3, progress).ok());
         QCOMPARE(entries(folder / "a.groom"), std::size_t{5});
         for (const auto& entry : fs::directory_iterator(folder / "a.groom"))
