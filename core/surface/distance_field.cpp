@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/surface/distance_field.h"
 
-#include "core/base/parallel.h"
+#include "core/surface/band_search.h"
 #include "core/surface/pseudo_normals.h"
 
 #include <glm/geometric.hpp>
@@ -15,57 +15,12 @@ namespace whorl {
 namespace {
 
 constexpr int bandNodes = 6;
-constexpr int blockSize = 4;
 // Not yet known: farther from the skin than the band.
 constexpr float unknown = std::numeric_limits<float>::max();
 
-struct Grid {
-    glm::vec3 origin;
-    float spacing;
-    int size[3];
-
-    std::size_t index(int x, int y, int z) const {
-        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y)) *
-                   static_cast<std::size_t>(size[0]) +
-               static_cast<std::size_t>(x);
-    }
-    glm::vec3 node(int x, int y, int z) const {
-        return origin + glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) * spacing;
-    }
-};
-
-// Signed distances of the nodes of one block that are in the band.
-void measureBlock(const Grid& grid, const SurfaceQuery& query, const PseudoNormals& sides, const int (&first)[3],
-                  std::vector<float>& values) {
-    const float band = bandNodes * grid.spacing;
-    const float halfDiagonal = 0.5f * (blockSize - 1) * grid.spacing * 1.7320509f;
-    const float half = 0.5f * (blockSize - 1);
-    const glm::vec3 centre = grid.node(first[0], first[1], first[2]) + glm::vec3(half * grid.spacing);
-    const float reach = (band + halfDiagonal) * 1.0001f;
-    const std::optional<SurfaceHit> atCentre = query.nearest(centre, reach);
-    if (!atCentre) return;
-    glm::vec3 near = atCentre->position;
-    const int last[3] = {std::min(first[0] + blockSize, grid.size[0]), std::min(first[1] + blockSize, grid.size[1]),
-                         std::min(first[2] + blockSize, grid.size[2])};
-    for (int z = first[2]; z < last[2]; ++z) {
-        for (int y = first[1]; y < last[1]; ++y) {
-            for (int step = first[0]; step < last[0]; ++step) {
-                // To and fro, so that the next node is a neighbour, whose nearest place bounds the search.
-                const int x = (y + z) % 2 == 0 ? step : first[0] + last[0] - 1 - step;
-                const glm::vec3 p = grid.node(x, y, z);
-                const float bound = std::min(band, glm::distance(p, near) * 1.0001f);
-                const std::optional<SurfaceHit> hit = query.nearest(p, bound);
-                if (!hit) continue;
-                near = hit->position;
-                values[grid.index(x, y, z)] = sides.inside(p, hit->point) ? -hit->distance : hit->distance;
-            }
-        }
-    }
-}
-
 // Gives the nodes beyond the band their side: those that the border of the grid reaches are outside, a closed pocket
 // is where most of the band around it is.
-void fillBeyondBand(const Grid& grid, float band, std::vector<float>& values) {
+void fillBeyondBand(const NodeGrid& grid, float band, std::vector<float>& values) {
     std::vector<std::size_t> open;
     std::vector<std::size_t> pocket;
     const std::size_t steps[3] = {1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
@@ -111,7 +66,7 @@ DistanceField DistanceField::build(const SurfaceQuery& query, int resolution) {
     const float longest = std::max({size.x, size.y, size.z});
     if (!(longest > 0.0f) || !std::isfinite(longest)) return field;
 
-    Grid grid{};
+    NodeGrid grid;
     grid.spacing = longest / static_cast<float>(std::clamp(resolution, 16, 256) - 1);
     // One node more than the band, so that the border of the grid is beyond it.
     const int margin = bandNodes + 1;
@@ -120,20 +75,13 @@ DistanceField DistanceField::build(const SurfaceQuery& query, int resolution) {
         grid.size[axis] = static_cast<int>(std::ceil(size[axis] / grid.spacing)) + 1 + 2 * margin;
 
     const PseudoNormals sides(query.mesh());
-    field.m_values.assign(grid.index(0, 0, grid.size[2]), unknown);
-    int blocks[3];
-    for (int axis = 0; axis < 3; ++axis) blocks[axis] = (grid.size[axis] + blockSize - 1) / blockSize;
-    const auto rows = static_cast<std::size_t>(blocks[1]) * static_cast<std::size_t>(blocks[2]);
-    parallelFor(rows, 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-            const int y = static_cast<int>(row % static_cast<std::size_t>(blocks[1])) * blockSize;
-            const int z = static_cast<int>(row / static_cast<std::size_t>(blocks[1])) * blockSize;
-            for (int x = 0; x < grid.size[0]; x += blockSize)
-                measureBlock(grid, query, sides, {x, y, z}, field.m_values);
-        }
+    field.m_values.assign(grid.count(), unknown);
+    const float band = bandNodes * grid.spacing;
+    searchBand(query.mesh(), grid, band, [&](const NodeHit& hit) {
+        field.m_values[hit.index] = sides.inside(hit.position, hit.nearest) ? -hit.distance : hit.distance;
     });
-    field.m_band = bandNodes * grid.spacing;
-    fillBeyondBand(grid, field.m_band, field.m_values);
+    field.m_band = band;
+    fillBeyondBand(grid, band, field.m_values);
     field.m_origin = grid.origin;
     field.m_spacing = grid.spacing;
     for (int axis = 0; axis < 3; ++axis) field.m_size[axis] = grid.size[axis];

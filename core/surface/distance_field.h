@@ -2,12 +2,13 @@
 // Signed distance to the skin on a grid: what keeps guides and hair outside.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <memory>
-#include <vector>
-
 #include "core/base/progress.h"
 #include "core/surface/surface_query.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <vector>
 
 namespace whorl {
 

@@ -120,7 +120,7 @@ PseudoNormals::PseudoNormals(const SurfaceMesh& mesh) : m_mesh(mesh), m_vertexOf
     for (std::size_t t = 0; t < triangles; ++t) m_faces[t] = glm::vec3(faces[t]);
 }
 
-bool PseudoNormals::inside(const glm::vec3& position, const SurfacePoint& nearest) const {
+bool PseudoNormals::inside(const Vec3d& position, const SurfacePoint& nearest) const {
     constexpr float nothing = 1e-6f;
     const std::uint32_t t = nearest.triangle;
     const float weights[3] = {1.0f - nearest.u - nearest.v, nearest.u, nearest.v};
@@ -143,7 +143,7 @@ bool PseudoNormals::inside(const glm::vec3& position, const SurfacePoint& neares
     const Vec3d place = Vec3d(m_mesh.positions[corner.x]) * (1.0 - double{nearest.u} - double{nearest.v}) +
                         Vec3d(m_mesh.positions[corner.y]) * double{nearest.u} +
                         Vec3d(m_mesh.positions[corner.z]) * double{nearest.v};
-    return glm::dot(Vec3d(position) - place, Vec3d(normal)) < 0.0;
+    return glm::dot(position - place, Vec3d(normal)) < 0.0;
 }
 
 }  // namespace whorl

@@ -2,6 +2,7 @@
 // Which side of a mesh a point is on, from the feature that is nearest to it.
 #pragma once
 
+#include "core/surface/closest_point.h"
 #include "core/surface/surface_point.h"
 
 #include <vector>
@@ -20,7 +21,7 @@ public:
     explicit PseudoNormals(const SurfaceMesh& mesh);
 
     /// True when `position` is behind the surface, `nearest` being its nearest place.
-    bool inside(const glm::vec3& position, const SurfacePoint& nearest) const;
+    bool inside(const Vec3d& position, const SurfacePoint& nearest) const;
 
 private:
     const SurfaceMesh& m_mesh;

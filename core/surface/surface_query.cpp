@@ -149,7 +149,8 @@ std::optional<SurfaceHit> SurfaceQuery::nearest(const glm::vec3& position, float
     query.y = position.y;
     query.z = position.z;
     // Squares of larger numbers do not fit a float.
-    query.radius = maxDistance < 1e18f ? maxDistance * (1.0f + 4e-6f) : std::numeric_limits<float>::infinity();
+    query.radius = maxDistance < 1e18f ? maxDistance * (1.0f + 4e-6f) + std::numeric_limits<float>::min()
+                                       : std::numeric_limits<float>::infinity();
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(sceneOf(m_scene), &query, &context, &visitTriangle, &search);
