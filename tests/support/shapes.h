@@ -2,11 +2,11 @@
 // Small meshes and grooms for tests.
 #pragma once
 
+#include "core/model/groom.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-
-#include "core/model/groom.h"
 
 namespace whorl::testing {
 
