@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "resources/samples/source/style.h"
+
+#include "core/base/random.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace whorl::samples {
+namespace {
+
+glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
+    const float length = glm::length(v);
+    return length > 1e-6f ? v / length : otherwise;
+}
+
+glm::vec3 randomVector(std::uint32_t id) {
+    return glm::vec3(randomFloat(11, id, 0), randomFloat(11, id, 1), randomFloat(11, id, 2)) * 2.0f - 1.0f;
+}
+
+}  // namespace
+
+float ramp(float value, float from, float to) {
+    const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+void growGuides(Groom& groom, const Surface& surface, std::uint8_t group, const Style& style) {
+    const DistanceField& skin = surface.skin();
+    for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+        if (groom.guides.group(i) != group) continue;
+        const SurfacePoint place = groom.guides.root(i);
+        const glm::vec3 root = positionAt(surface.mesh(), place);
+        const glm::vec3 normal = normalAt(surface.mesh(), place);
+        const glm::vec3 stray = randomVector(groom.guides.id(i)) * style.stray;
+        const auto points = groom.guides.editPoints(i);
+        const auto segments = static_cast<float>(points.size() - 1);
+        const float step = style.length(root) / segments;
+
+        const auto along = [&](const glm::vec3& p) {
+            // The flow without what points into or out of the skin there.
+            const glm::vec3 flow = unit(style.flow(p, root) + stray, normal);
+            const glm::vec3 out = unit(skin.gradient(p), normal);
+            return unit(flow - out * glm::dot(flow, out), flow);
+        };
+        glm::vec3 direction = glm::mix(along(root), normal, std::clamp(style.lift(root), 0.05f, 1.0f));
+        direction = unit(direction, normal);
+        glm::vec3 p = root;
+        points[0] = root;
+        for (std::size_t k = 1; k < points.size(); ++k) {
+            const float t = static_cast<float>(k) / segments;
+            const float turn = style.turn * std::min(1.0f, t * 3.0f);
+            direction = unit(direction + (along(p) - direction) * turn - glm::vec3(0, style.gravity, 0), normal);
+            glm::vec3 next = p + direction * step;
+            const float clearance = style.layer * std::min(1.0f, t * 4.0f);
+            const float distance = skin.distance(next);
+            if (distance < clearance) {
+                next += skin.gradient(next) * (clearance - distance);
+                next = p + unit(next - p, direction) * step;
+            }
+            direction = unit(next - p, direction);
+            p = next;
+            points[k] = p;
+        }
+    }
+}
+
+}  // namespace whorl::samples
