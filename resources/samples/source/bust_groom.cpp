@@ -12,7 +12,6 @@ namespace {
 // the head and of the nape.
 constexpr float topHeight = 0.400f;
 constexpr float napeHeight = 0.235f;
-constexpr float partingSide = 0.022f;
 
 HairParams scalpHair() {
     HairParams hair;
@@ -48,22 +47,30 @@ HairParams browHair() {
     return hair;
 }
 
-/// Combed back from the forehead, to the model's right over the parting, down at the sides and the nape.
+/// Combed from the forehead up and back over the crown, a little to the model's right, down at the sides and the nape.
 glm::vec3 scalpFlow(const glm::vec3& p, const glm::vec3& root) {
-    const float height = ramp(p.y, 0.290f, topHeight);
-    const float front = ramp(p.z, -0.030f, 0.060f);
-    const float side = ramp(root.x, partingSide - 0.006f, partingSide + 0.006f) * 2.0f - 1.0f;
-    return {side * 0.85f * front * height, -0.25f - 1.1f * (1.0f - height), -1.0f + 0.15f * front};
+    const float height = ramp(p.y, 0.290f, 0.385f);
+    const float front = ramp(p.z, -0.020f, 0.060f) * ramp(root.y, 0.315f, 0.350f);
+    const glm::vec3 overTheTop(-0.45f * ramp(root.z, 0.020f, 0.075f), 0.55f, -1.0f);
+    const float outward = 0.35f * glm::clamp(root.x / 0.075f, -1.0f, 1.0f) * height;
+    const glm::vec3 backAndDown(outward, -0.15f - 1.2f * (1.0f - height), -1.0f);
+    return glm::mix(backAndDown, overTheTop, front);
 }
 
 float scalpLength(const glm::vec3& root) {
-    const float height = ramp(root.y, napeHeight, topHeight - 0.010f);
-    const float front = ramp(root.z, 0.000f, 0.070f) * ramp(root.y, 0.330f, 0.370f);
-    return 0.020f + 0.072f * height + 0.022f * front;
+    const float height = ramp(root.y, napeHeight, topHeight - 0.020f);
+    const float front = ramp(root.z, 0.000f, 0.070f) * ramp(root.y, 0.320f, 0.360f);
+    return 0.022f + 0.068f * height + 0.030f * front;
 }
 
 float scalpLift(const glm::vec3& root) {
-    return 0.22f + 0.38f * ramp(root.z, 0.020f, 0.075f) * ramp(root.y, 0.335f, 0.365f);
+    return 0.18f + 0.50f * ramp(root.z, 0.010f, 0.075f) * ramp(root.y, 0.320f, 0.355f);
+}
+
+float scalpLayer(const glm::vec3& root) {
+    const float top = ramp(root.y, 0.300f, 0.360f);
+    const float front = ramp(root.z, -0.020f, 0.075f);
+    return 0.0035f + 0.0075f * top + 0.0130f * top * front;
 }
 
 }  // namespace
@@ -102,10 +109,11 @@ Result<Groom> bustGroom(Progress& progress) {
                {.length = scalpLength,
                 .flow = scalpFlow,
                 .lift = scalpLift,
-                .turn = 0.42f,
-                .gravity = 0.035f,
-                .layer = 0.0045f,
-                .stray = 0.10f});
+                .layer = scalpLayer,
+                .turn = 0.40f,
+                .gravity = 0.02f,
+                .hug = 0.55f,
+                .stray = 0.09f});
     growGuides(
         groom, surface, 1,
         {.length = [](const glm::vec3& root) { return 0.010f - 0.004f * ramp(std::abs(root.x), 0.035f, 0.055f); },
@@ -115,9 +123,9 @@ Result<Groom> bustGroom(Progress& progress) {
                  return glm::vec3(p.x < 0 ? -outward : outward, 0.9f - 1.1f * outward, 0.0f);
              },
          .lift = [](const glm::vec3&) { return 0.25f; },
+         .layer = [](const glm::vec3&) { return 0.0010f; },
          .turn = 0.5f,
          .gravity = 0.0f,
-         .layer = 0.0008f,
          .stray = 0.15f});
     return groom;
 }

@@ -23,7 +23,7 @@ HairParams fur() {
     hair.colour.hueVariation.value = 0.03f;
     hair.colour.valueVariation.value = 0.22f;
     hair.frizz.root.value = 0.0003f;
-    hair.frizz.tip.value = 0.0035f;
+    hair.frizz.tip.value = 0.0050f;
     hair.frizz.frequency.value = glm::vec3(420.0f);
     hair.kink.tip.value = 0.0008f;
     hair.kink.frequency.value = glm::vec3(160.0f);
@@ -67,13 +67,14 @@ Result<Groom> creatureGroom(Progress& progress) {
                     [&](const glm::vec3& root) {
                         const auto hit = surface.query.nearest(root);
                         const float share = hit ? lengths->sample(uvAt(surface.mesh(), hit->point)) : 1.0f;
-                        return 0.003f + 0.042f * share;
+                        return 0.003f + 0.055f * share;
                     },
                 .flow = furFlow,
-                .lift = [](const glm::vec3&) { return 0.55f; },
+                .lift = [](const glm::vec3&) { return 0.68f; },
+                .layer = [](const glm::vec3&) { return 0.010f; },
                 .turn = 0.28f,
                 .gravity = 0.03f,
-                .layer = 0.004f,
+                .hug = 0.05f,
                 .stray = 0.12f});
     return groom;
 }

@@ -19,9 +19,11 @@ struct Style {
     std::function<glm::vec3(const glm::vec3& place, const glm::vec3& root)> flow;
     /// 0: lies on the skin at once, 1: leaves along the normal.
     std::function<float(const glm::vec3& root)> lift;
+    /// Height above the skin that the hair lies at: the volume of the style.
+    std::function<float(const glm::vec3& root)> layer;
     float turn = 0.35f;     ///< how fast the flow takes over, share a segment
     float gravity = 0.05f;  ///< pull downwards, share a segment
-    float layer = 0.004f;   ///< height above the skin that the hair ends at
+    float hug = 0.6f;       ///< pull back to the layer when the hair is above it
     float stray = 0.05f;    ///< random bend of each guide, radians or so
 };
 
