@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "assemble.h"
+#include "resources/samples/source/assemble.h"
 
-#include "pack.h"
+#include "resources/samples/source/pack.h"
 
 #include <cmath>
 

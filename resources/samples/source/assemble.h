@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "halfmesh.h"
-#include "sculpt.h"
-#include "unwrap.h"
+#include "resources/samples/source/halfmesh.h"
+#include "resources/samples/source/sculpt.h"
+#include "resources/samples/source/unwrap.h"
 
 #include <functional>
 #include <string>

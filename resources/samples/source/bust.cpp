@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bust.h"
+#include "resources/samples/source/bust.h"
 
-#include "assemble.h"
-#include "ear.h"
-#include "sdf.h"
+#include "resources/samples/source/assemble.h"
+#include "resources/samples/source/ear.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 
@@ -26,7 +26,7 @@ float edgeLength(const vec3& p) {
     finer({0.0f, 0.2400f, 0.0950f}, {0.0150f, 0.0080f, 0.0140f}, 0.0015f);
     finer({0.0074f, 0.2360f, 0.0920f}, {0.0060f, 0.0050f, 0.0070f}, 0.0012f);
     finer({0.0f, 0.2450f, 0.0700f}, {0.0450f, 0.0600f, 0.0300f}, 0.0028f);
-    wanted = std::min(wanted, 0.0018f + 0.17f * std::max(ear::bounds(vec3(std::abs(p.x), p.y, p.z)) + 0.006f, 0.0f));
+    wanted = std::min(wanted, 0.0018f + 0.20f * std::max(ear::bounds(vec3(std::abs(p.x), p.y, p.z)), 0.0f));
     wanted = std::min(wanted, 0.0034f + 0.25f * std::max(p.y - 0.006f, 0.0f));  // rounded lower edge
     return p.y < 0.0015f ? 0.0060f : wanted;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sculpt.h"
+#include "resources/samples/source/sculpt.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bust.h"
-#include "ear.h"
-#include "sdf.h"
+#include "resources/samples/source/bust.h"
+#include "resources/samples/source/ear.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 
@@ -35,12 +35,12 @@ float face(const vec3& p, float d) {
     const vec3 s = softSide(p, 0.004f);
     d = smoothMin(d, ellipsoid(p, {0, 0.2580f, 0.0300f}, {0.0560f, 0.0560f, 0.0480f}), 0.020f);
     // Muzzle of the mouth, then jaw from chin to ear.
-    d = smoothMin(d, ellipsoid(p, {0, 0.2170f, 0.0420f}, {0.0400f, 0.0380f, 0.0415f}), 0.020f);
+    d = smoothMin(d, ellipsoid(p, {0, 0.2160f, 0.0415f}, {0.0405f, 0.0390f, 0.0410f}), 0.020f);
     d = smoothMin(d, ellipsoid(p, {0, 0.2240f, 0.0160f}, {0.0530f, 0.0500f, 0.0500f}), 0.020f);
-    const float jaw = std::min(taper(s, {0.0130f, 0.1835f, 0.0650f}, 0.0120f, {0.0435f, 0.2050f, 0.0120f}, 0.0100f),
+    const float jaw = std::min(taper(s, {0.0135f, 0.1850f, 0.0630f}, 0.0132f, {0.0435f, 0.2050f, 0.0120f}, 0.0100f),
                                taper(s, {0.0435f, 0.2050f, 0.0120f}, 0.0100f, {0.0585f, 0.2600f, -0.0020f}, 0.0100f));
     d = smoothMin(d, jaw, 0.018f);
-    d = smoothMin(d, ellipsoid(p, {0, 0.1825f, 0.0690f}, {0.0175f, 0.0130f, 0.0155f}), 0.024f);
+    d = smoothMin(d, ellipsoid(p, {0, 0.1838f, 0.0668f}, {0.0185f, 0.0130f, 0.0150f}), 0.030f);
     d = smoothMin(d, ellipsoid(s, {0.0330f, 0.2330f, 0.0450f}, {0.0190f, 0.0240f, 0.0210f}), 0.030f);
     // Cheekbone and its arch towards the ear.
     const vec3 cheek = sdf::turnY(s, {0.0430f, 0.2600f, 0.0500f}, 0.75f);
@@ -52,11 +52,11 @@ float face(const vec3& p, float d) {
 float brows(const vec3& p, float d) {
     const vec3 s = softSide(p, 0.004f);
     const float ridge = std::min(taper(s, {0.0100f, 0.3030f, 0.0790f}, 0.0055f, {0.0330f, 0.3070f, 0.0722f}, 0.0062f),
-                                 taper(s, {0.0330f, 0.3070f, 0.0722f}, 0.0062f, {0.0510f, 0.2990f, 0.0510f}, 0.0050f));
-    return smoothMin(d, ridge, 0.022f);
+                                 taper(s, {0.0330f, 0.3070f, 0.0722f}, 0.0062f, {0.0505f, 0.2965f, 0.0500f}, 0.0045f));
+    return smoothMin(d, ridge, 0.026f);
 }
 
-const vec3 kEye(0.0310f, 0.2835f, 0.0610f);
+const vec3 kEye(0.0310f, 0.2838f, 0.0624f);
 
 /// A point seen from the centre of the eyeball.
 struct LidPoint {
@@ -77,14 +77,14 @@ LidPoint lidPoint(const vec3& p) {
 
 float eyes(const vec3& p, float d) {
     // Socket: a wide hollow, deepest towards the nose.
-    d = carve(d, ellipsoid(p, {0.0290f, 0.2855f, 0.0900f}, {0.0200f, 0.0115f, 0.0165f}), 0.014f);
+    d = carve(d, ellipsoid(p, {0.0295f, 0.2855f, 0.0915f}, {0.0205f, 0.0115f, 0.0165f}), 0.014f);
     d = carve(d, ellipsoid(p, {0.0175f, 0.2850f, 0.0860f}, {0.0060f, 0.0085f, 0.0075f}), 0.012f);
     const LidPoint l = lidPoint(p);
     if (l.radius > 0.03f) {
         return d;
     }
     const float lids = smoothstep(1.25f, 0.85f, std::abs(l.yaw));
-    float ball = l.radius - 0.0148f;
+    float ball = l.radius - 0.0152f;
     ball -= 0.0010f * smoothstep(-0.05f, 0.06f, l.aboveLash) * lids;
     ball += 0.0008f * gauss(l.aboveLash + 0.07f, 0.07f) * lids;
     d = smoothMin(d, ball, 0.0045f + 0.0045f * smoothstep(-0.45f, -1.0f, l.yaw));
@@ -106,7 +106,7 @@ float nose(const vec3& p, float d) {
     n = smoothMin(n, taper(s, {0.0070f, 0.2840f, 0.0690f}, 0.0060f, {0.0105f, 0.2480f, 0.0830f}, 0.0080f), 0.010f);
     d = smoothMin(d, n, 0.008f);
     const vec3 wing = sdf::turnY(s, {0.0125f, 0.2400f, 0.0890f}, 0.35f);
-    d = smoothMin(d, ellipsoid(wing, {0.0118f, 0.2402f, 0.0880f}, {0.0064f, 0.0068f, 0.0100f}), 0.0075f);
+    d = smoothMin(d, ellipsoid(wing, {0.0114f, 0.2405f, 0.0875f}, {0.0062f, 0.0064f, 0.0092f}), 0.0085f);
     // Column between the nostrils, then the nostrils.
     d = smoothMin(d, taper(p, {0, 0.2425f, 0.0985f}, 0.0042f, {0, 0.2375f, 0.0850f}, 0.0042f), 0.006f);
     const vec3 hole = sdf::turnX(s, {0.0070f, 0.2345f, 0.0930f}, -0.35f);
@@ -131,7 +131,7 @@ const sdf::Tube& lowerLip() {
 
 /// Height at which the lips meet.
 float mouthLine(float x) {
-    return 0.2115f + 0.0009f * smoothstep(0.0f, 0.0055f, x) - 0.0006f * smoothstep(0.0060f, 0.0140f, x) +
+    return 0.2117f + 0.0006f * smoothstep(0.0f, 0.0055f, x) - 0.0006f * smoothstep(0.0060f, 0.0140f, x) +
            0.0012f * smoothstep(0.0140f, 0.0260f, x);
 }
 
@@ -144,7 +144,7 @@ float mouth(const vec3& p, float d) {
     d = smoothMin(d, lowerLip().distance(s, 0.012f), 0.0040f);
     d += 0.0026f * gauss(p.y - mouthLine(p.x), 0.0010f) * smoothstep(0.0270f, 0.0200f, p.x);
     // Groove under the nose, hollow over the chin, corners of the mouth.
-    d += 0.0014f * gauss(p.x, 0.0026f) * smoothstep(0.2350f, 0.2310f, p.y) * smoothstep(0.2185f, 0.2225f, p.y);
+    d += 0.0011f * gauss(p.x, 0.0028f) * smoothstep(0.2350f, 0.2310f, p.y) * smoothstep(0.2180f, 0.2250f, p.y);
     d += 0.0030f * gauss(p.y - 0.1965f, 0.0052f) * gauss(p.x, 0.0130f);
     d += 0.0010f * gauss(p.x - 0.0265f, 0.0035f) * gauss(p.y - 0.2118f, 0.0040f);
     return d;
@@ -159,7 +159,7 @@ float neckAndShoulders(const vec3& p) {
     trunk = smoothMin(trunk, ellipsoid(p, {0, 0.0200f, -0.0280f}, {0.1300f, 0.0880f, 0.0700f}), 0.040f);
     d = smoothMin(d, trunk, 0.035f);
     // Neck muscle from behind the ear to the notch between the collar bones, and the bones.
-    d = smoothMin(d, taper(s, {0.0540f, 0.2350f, -0.0300f}, 0.0110f, {0.0120f, 0.1010f, 0.0140f}, 0.0060f), 0.016f);
+    d = smoothMin(d, taper(s, {0.0500f, 0.2400f, -0.0300f}, 0.0090f, {0.0120f, 0.1010f, 0.0140f}, 0.0060f), 0.016f);
     static const sdf::Tube collar({{{0.0100f, 0.0960f, 0.0180f}, 0.0075f},
                                    {{0.0450f, 0.0970f, 0.0160f}, 0.0060f},
                                    {{0.0900f, 0.1040f, -0.0080f}, 0.0058f},
@@ -190,8 +190,9 @@ BustMarks bustMarks(const vec3& point) {
     const LidPoint l = lidPoint(p);
     if (l.radius < 0.022f && p.z > kEye.z) {
         const float width = smoothstep(1.20f, 0.95f, l.yaw) * smoothstep(-1.05f, -0.80f, l.yaw);
-        marks.lash = width * gauss(l.aboveLash + 0.04f, 0.055f);
-        marks.lid = width * smoothstep(0.0f, 0.15f, l.aboveLash) * smoothstep(0.65f, 0.45f, l.pitch);
+        marks.lash = width * gauss(l.aboveLash + 0.04f, 0.055f) * smoothstep(0.0205f, 0.0170f, l.radius);
+        marks.lid = width * smoothstep(0.0f, 0.15f, l.aboveLash) * smoothstep(0.65f, 0.45f, l.pitch) *
+                    smoothstep(0.0205f, 0.0165f, l.radius);
     }
     return marks;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bust.h"
-#include "ear.h"
-#include "paint.h"
-#include "sdf.h"
+#include "resources/samples/source/bust.h"
+#include "resources/samples/source/ear.h"
+#include "resources/samples/source/paint.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "unwrap.h"
+#include "resources/samples/source/unwrap.h"
 
 #include <numeric>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "creature.h"
+#include "resources/samples/source/creature.h"
 
-#include "assemble.h"
-#include "sdf.h"
+#include "resources/samples/source/assemble.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "creature.h"
-#include "sdf.h"
+#include "resources/samples/source/creature.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "creature.h"
-#include "paint.h"
-#include "sdf.h"
+#include "resources/samples/source/creature.h"
+#include "resources/samples/source/paint.h"
+#include "resources/samples/source/sdf.h"
 
 namespace whorl::samples {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ear.h"
+#include "resources/samples/source/ear.h"
 
-#include "sdf.h"
+#include "resources/samples/source/sdf.h"
 
 #include <array>
 
@@ -88,7 +88,7 @@ float bounds(const vec3& p) {
 float blend(const vec3& p, float head) {
     const vec3 q = local(p);
     const vec2 flat(q);
-    const float sheet = std::abs(q.z - dish(flat)) - 0.0017f;
+    const float sheet = std::abs(q.z - dish(flat)) - 0.0019f;
     float d = sdf::smoothMax(sheet, outline(flat), 0.003f);
     // The root that carries the bowl of the ear on the head.
     const float root = sdf::ellipsoid(q, vec3(0.0020f, -0.0015f, -0.0085f), vec3(0.0135f, 0.0205f, 0.0112f));

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfmesh.h"
-
-#include "subdivide.h"
+#include "resources/samples/source/halfmesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,32 +13,45 @@ using glm::vec3;
 
 std::vector<MeshEdge> collectEdges(const std::vector<std::array<uint32_t, 3>>& triangles) {
     struct Half {
-        uint64_t key;
+        uint32_t far;
         int32_t triangle;
     };
-    std::vector<Half> halves;
-    halves.reserve(triangles.size() * 3);
-    for (size_t t = 0; t < triangles.size(); ++t) {
-        for (int c = 0; c < 3; ++c) {
-            const uint64_t a = triangles[t][c];
-            const uint64_t b = triangles[t][(c + 1) % 3];
-            halves.push_back({std::min(a, b) << 32 | std::max(a, b), static_cast<int32_t>(t)});
-        }
+    // Half edges are grouped by their smaller vertex first; the groups are so small that sorting them costs little.
+    uint32_t vertices = 0;
+    for (const auto& t : triangles) {
+        vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
     }
-    std::sort(halves.begin(), halves.end(),
-              [](const Half& l, const Half& r) { return l.key != r.key ? l.key < r.key : l.triangle < r.triangle; });
+    std::vector<uint32_t> first(size_t(vertices) + 1, 0);
+    auto eachHalf = [&](auto&& visit) {
+        for (size_t t = 0; t < triangles.size(); ++t) {
+            for (int c = 0; c < 3; ++c) {
+                const uint32_t a = triangles[t][c], b = triangles[t][(c + 1) % 3];
+                visit(std::min(a, b), Half{std::max(a, b), static_cast<int32_t>(t)});
+            }
+        }
+    };
+    eachHalf([&](uint32_t near, const Half&) { ++first[near + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Half> halves(triangles.size() * 3);
+    std::vector<uint32_t> fill(first.begin(), first.end() - 1);
+    eachHalf([&](uint32_t near, const Half& half) { halves[fill[near]++] = half; });
     std::vector<MeshEdge> edges;
     edges.reserve(halves.size() / 2 + 1);
-    for (size_t i = 0; i < halves.size();) {
-        const bool paired = i + 1 < halves.size() && halves[i + 1].key == halves[i].key;
-        edges.push_back({static_cast<uint32_t>(halves[i].key >> 32), static_cast<uint32_t>(halves[i].key),
-                         halves[i].triangle, paired ? halves[i + 1].triangle : -1});
-        i += paired ? 2 : 1;
+    for (uint32_t v = 0; v < vertices; ++v) {
+        const auto begin = halves.begin() + first[v], end = halves.begin() + first[v + 1];
+        std::sort(begin, end, [](const Half& l, const Half& r) {
+            return l.far != r.far ? l.far < r.far : l.triangle < r.triangle;
+        });
+        for (auto it = begin; it != end;) {
+            const bool paired = it + 1 != end && it[1].far == it->far;
+            edges.push_back({v, it->far, it->triangle, paired ? it[1].triangle : -1});
+            it += paired ? 2 : 1;
+        }
     }
     return edges;
 }
 
-vec3 fieldNormal(const Field& surface, const vec3& p) {
+vec3 fieldGradient(const Field& surface, const vec3& p) {
     constexpr float kStep = 2e-4f;
     // Four taps at the corners of a tetrahedron cost two evaluations less than central differences.
     constexpr std::array<std::array<float, 3>, 4> kTaps = {{{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}}};
@@ -52,8 +63,13 @@ vec3 fieldNormal(const Field& surface, const vec3& p) {
     if (p.x == 0.0f) {
         sum.x = 0.0f;
     }
-    const float len = glm::length(sum);
-    return len > 0.0f ? sum / len : vec3(0.0f, 1.0f, 0.0f);
+    return sum / (4.0f * kStep);
+}
+
+vec3 fieldNormal(const Field& surface, const vec3& p) {
+    const vec3 gradient = fieldGradient(surface, p);
+    const float slope = glm::length(gradient);
+    return slope > 0.0f ? gradient / slope : vec3(0.0f, 1.0f, 0.0f);
 }
 
 vec3 projectToSurface(const Field& surface, vec3 p, int steps) {
@@ -62,12 +78,14 @@ vec3 projectToSurface(const Field& surface, vec3 p, int steps) {
         if (std::abs(d) < 2e-6f) {
             break;
         }
-        const vec3 n = fieldNormal(surface, p);
-        constexpr float kProbe = 3e-4f;
-        const float slope = (surface(p + n * kProbe) - surface(p - n * kProbe)) / (2.0f * kProbe);
+        const vec3 gradient = fieldGradient(surface, p);
+        const float slope = glm::length(gradient);
+        if (slope == 0.0f) {
+            break;
+        }
         // A field that is steeper or flatter than a true distance needs the slope to converge; the cap keeps a
         // point from being thrown off where the field has a kink.
-        p -= n * std::clamp(d / std::max(slope, 0.3f), -2e-3f, 2e-3f);
+        p -= gradient / slope * std::clamp(d / std::max(slope, 0.3f), -2e-3f, 2e-3f);
     }
     return p;
 }
@@ -208,91 +226,6 @@ private:
 
 HalfMesh polygonise(const Field& surface, const vec3& lo, const vec3& hi, float cell) {
     return TetMarcher(surface, lo, hi, cell).run();
-}
-
-void splitRegion(HalfMesh& mesh, uint8_t from, uint8_t to, const Field& cut) {
-    std::vector<float> side(mesh.positions.size());
-    for (size_t i = 0; i < side.size(); ++i) {
-        side[i] = cut(mesh.positions[i]);
-    }
-    EdgeCuts cuts;
-    for (const MeshEdge& e : collectEdges(mesh.triangles)) {
-        const bool touches = mesh.labels[e.left] == from || (e.right >= 0 && mesh.labels[e.right] == from);
-        if (touches && (side[e.a] > 0.0f) != (side[e.b] > 0.0f)) {
-            const float t = std::clamp(side[e.a] / (side[e.a] - side[e.b]), 0.05f, 0.95f);
-            cuts.add(e.a, e.b, static_cast<uint32_t>(mesh.positions.size()));
-            mesh.positions.push_back(mesh.positions[e.a] + (mesh.positions[e.b] - mesh.positions[e.a]) * t);
-        }
-    }
-    side.resize(mesh.positions.size(), 0.0f);
-    subdivide(mesh, cuts);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto& tri = mesh.triangles[t];
-        // Every piece has its old corners on one side only; the corners made by the cut count as zero.
-        if (mesh.labels[t] == from && side[tri[0]] + side[tri[1]] + side[tri[2]] > 0.0f) {
-            mesh.labels[t] = to;
-        }
-    }
-}
-
-void absorbSpecks(HalfMesh& mesh) {
-    const std::vector<MeshEdge> edges = collectEdges(mesh.triangles);
-    const size_t count = mesh.triangles.size();
-    // Taking a speck away can join or free others, so a few rounds.
-    for (int round = 0; round < 3; ++round) {
-        std::vector<uint32_t> leader(count);
-        std::iota(leader.begin(), leader.end(), 0u);
-        auto find = [&](uint32_t i) {
-            while (leader[i] != i) {
-                i = leader[i] = leader[leader[i]];
-            }
-            return i;
-        };
-        for (const MeshEdge& e : edges) {
-            if (e.right >= 0 && mesh.labels[size_t(e.left)] == mesh.labels[size_t(e.right)]) {
-                const uint32_t a = find(uint32_t(e.left)), b = find(uint32_t(e.right));
-                leader[std::max(a, b)] = std::min(a, b);
-            }
-        }
-        std::vector<uint32_t> size(count, 0);
-        for (uint32_t t = 0; t < count; ++t) {
-            ++size[find(t)];
-        }
-        std::array<uint32_t, 256> largest{};
-        for (uint32_t t = 0; t < count; ++t) {
-            largest[mesh.labels[t]] = std::max(largest[mesh.labels[t]], size[find(t)]);
-        }
-        std::vector<int> adopt(count, -1);
-        for (const MeshEdge& e : edges) {
-            if (e.right < 0) {
-                continue;
-            }
-            const uint32_t a = find(uint32_t(e.left)), b = find(uint32_t(e.right));
-            const uint8_t la = mesh.labels[a], lb = mesh.labels[b];
-            if (la != lb && size[a] * 8 < largest[la] && size[b] > size[a]) {
-                adopt[a] = lb;
-            } else if (la != lb && size[b] * 8 < largest[lb] && size[a] > size[b]) {
-                adopt[b] = la;
-            }
-        }
-        std::vector<uint8_t> labels = mesh.labels;
-        for (uint32_t t = 0; t < count; ++t) {
-            if (adopt[find(t)] >= 0) {
-                labels[t] = uint8_t(adopt[find(t)]);
-            }
-        }
-        mesh.labels = labels;
-    }
-}
-
-void append(HalfMesh& mesh, const HalfMesh& other, uint8_t labelOffset) {
-    const auto base = static_cast<uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-    for (size_t t = 0; t < other.triangles.size(); ++t) {
-        const auto& tri = other.triangles[t];
-        mesh.triangles.push_back({tri[0] + base, tri[1] + base, tri[2] + base});
-        mesh.labels.push_back(static_cast<uint8_t>(other.labels[t] + labelOffset));
-    }
 }
 
 }  // namespace whorl::samples

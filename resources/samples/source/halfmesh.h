@@ -29,6 +29,9 @@ struct MeshEdge {
 /// Every edge once, in an order that depends on the mesh only.
 std::vector<MeshEdge> collectEdges(const std::vector<std::array<uint32_t, 3>>& triangles);
 
+/// Gradient of the field; its length is 1 where the field is a true distance.
+glm::vec3 fieldGradient(const Field& surface, const glm::vec3& p);
+
 /// Unit gradient of the field; on the mirror plane its x component is exactly zero.
 glm::vec3 fieldNormal(const Field& surface, const glm::vec3& p);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pack.h"
+#include "resources/samples/source/pack.h"
 
 #include <algorithm>
 #include <bitset>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "paint.h"
+#include "resources/samples/source/paint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfmesh.h"
-#include "subdivide.h"
+#include "resources/samples/source/mesh_topology.h"
+#include "resources/samples/source/subdivide.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@ using glm::vec3;
 
 namespace {
 
-class Remesher {
+class Remesher : private MeshTopology {
 public:
     Remesher(HalfMesh& mesh, const Field& surface, const Field& edgeLength)
-        : m_mesh(mesh), m_surface(surface), m_length(edgeLength) {}
+        : MeshTopology(mesh), m_surface(surface), m_length(edgeLength) {}
 
     void run(int iterations) {
         for (int i = 0; i < iterations; ++i) {
@@ -31,63 +31,6 @@ public:
     }
 
 private:
-    bool isFeature(const MeshEdge& e) const { return e.right < 0 || m_mesh.labels[e.left] != m_mesh.labels[e.right]; }
-    vec3 middle(const MeshEdge& e) const { return 0.5f * (m_mesh.positions[e.a] + m_mesh.positions[e.b]); }
-    float length(const MeshEdge& e) const { return glm::distance(m_mesh.positions[e.a], m_mesh.positions[e.b]); }
-
-    /// Edges, vertex-to-triangle lists, and how many region borders meet at each vertex.
-    void analyse() {
-        const size_t n = m_mesh.positions.size();
-        m_edges = collectEdges(m_mesh.triangles);
-        m_lines.assign(n, 0);
-        m_onBorder.assign(n, 0);
-        for (const MeshEdge& e : m_edges) {
-            if (isFeature(e)) {
-                ++m_lines[e.a];
-                ++m_lines[e.b];
-            }
-            if (e.right < 0) {
-                m_onBorder[e.a] = m_onBorder[e.b] = 1;
-            }
-        }
-        m_first.assign(n + 1, 0);
-        for (const auto& t : m_mesh.triangles) {
-            for (uint32_t v : t) {
-                ++m_first[v + 1];
-            }
-        }
-        for (size_t i = 0; i < n; ++i) {
-            m_first[i + 1] += m_first[i];
-        }
-        m_around.resize(m_mesh.triangles.size() * 3);
-        std::vector<uint32_t> fill(m_first.begin(), m_first.end() - 1);
-        for (size_t t = 0; t < m_mesh.triangles.size(); ++t) {
-            for (uint32_t v : m_mesh.triangles[t]) {
-                m_around[fill[v]++] = static_cast<uint32_t>(t);
-            }
-        }
-    }
-
-    template <typename F>
-    void eachTriangle(uint32_t v, F&& f) const {
-        for (uint32_t i = m_first[v]; i < m_first[v + 1]; ++i) {
-            f(m_around[i]);
-        }
-    }
-
-    void neighbours(uint32_t v, std::vector<uint32_t>& out) const {
-        out.clear();
-        eachTriangle(v, [&](uint32_t t) {
-            for (uint32_t w : m_mesh.triangles[t]) {
-                if (w != v) {
-                    out.push_back(w);
-                }
-            }
-        });
-        std::sort(out.begin(), out.end());
-        out.erase(std::unique(out.begin(), out.end()), out.end());
-    }
-
     void cut(const std::vector<const MeshEdge*>& chosen) {
         EdgeCuts cuts;
         for (const MeshEdge* e : chosen) {
@@ -325,12 +268,8 @@ private:
         }
     }
 
-    HalfMesh& m_mesh;
     const Field& m_surface;
     const Field& m_length;
-    std::vector<MeshEdge> m_edges;
-    std::vector<uint8_t> m_lines, m_onBorder;
-    std::vector<uint32_t> m_first, m_around;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "subdivide.h"
+#include "resources/samples/source/subdivide.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "halfmesh.h"
+#include "resources/samples/source/halfmesh.h"
 
 #include <glm/glm.hpp>
 
