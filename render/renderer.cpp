@@ -54,6 +54,10 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, c
         } else {
             effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 255)) + 1;
         }
+        effort.hair.wholeHairs = reduced;
+        const float drawn = static_cast<float>(effort.hair.hairs(*strands));
+        const float fuller = std::pow(std::max(settings.fullCount / static_cast<float>(count), 1.0f), 0.6f);
+        effort.hair.widthScale = std::min(fuller, 3.0f) * static_cast<float>(count) / drawn;
     }
     return effort;
 }
@@ -62,7 +66,7 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, c
 
 struct Renderer::State {
     gl::ContextInfo context;
-    gl::EmptyVertexArray vertexArray;
+    gl::VertexArray vertexArray;
     MeshPass mesh;
     GuidesPass guides;
     HairPass hair;
@@ -108,7 +112,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     Result<OverlayPass> overlay = OverlayPass::create();
     if (!overlay) return overlay.error();
     std::unique_ptr<Renderer> renderer(new Renderer);
-    renderer->m_state = std::unique_ptr<State>(new State{std::move(*context), gl::EmptyVertexArray(), std::move(*mesh),
+    renderer->m_state = std::unique_ptr<State>(new State{std::move(*context), gl::VertexArray(), std::move(*mesh),
                                                          std::move(*guides), std::move(*hair), ShadowPass(),
                                                          std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
                                                          gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
@@ -159,7 +163,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     scene.shadow.w = static_cast<float>(effort.shadowTaps);
     const auto shadowStart = std::chrono::steady_clock::now();
     state.shadowTimer.begin();
-    state.shadows.update(hair, settings, effort.hair.stride, state.surface != nullptr ? state.surface->bounds : bounds,
+    state.shadows.update(hair, settings, effort.hair, state.surface != nullptr ? state.surface->bounds : bounds,
                          settings.showMesh ? &state.mesh : nullptr, scene, state.sceneBuffer);
     state.shadowTimer.end();
     state.shadowMilliseconds = milliseconds(shadowStart);
@@ -176,6 +180,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     state.picture.drawBackground(settings);
     if (settings.showMesh) state.mesh.draw(settings, state.uploads);
     if (hair != nullptr) state.hair.draw(effort.smoothHair);
+    state.vertexArray.bind();
     if (settings.showGuides) state.guides.draw();
     gl::bindTarget(target, size);
     state.picture.finish(settings);

@@ -33,6 +33,9 @@ struct ViewSettings {
     glm::vec3 background{0.055f, 0.06f, 0.07f};  ///< linear, at the centre
     int samples = 4;                             ///< multisampling, 1 to 4
     float minPixelWidth = 1.0f;                  ///< thinner hair is drawn this wide and more transparent
+    /// Fewer hairs than this (a head has about 100,000) are drawn and cast shadows wider, up to three times, so that a
+    /// preview looks as dense as the hair that it stands for. 0: true widths.
+    float fullCount = 100000.0f;
     float exposure = 1.0f;
     /// The view moves or a stroke is drawn: without a graphics card a part of the hair is drawn, wider, with fewer
     /// points and samples, so that the viewport follows. Makes no difference with one.

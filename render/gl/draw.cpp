@@ -50,14 +50,25 @@ void apply(const DrawState& state) {
     glPolygonOffset(state.slopeBias, state.slopeBias);
 }
 
-EmptyVertexArray::EmptyVertexArray() {
+VertexArray::VertexArray() {
     unsigned name = 0;
     glCreateVertexArrays(1, &name);
     m_name = Name(name, deleteVertexArray);
 }
 
-void EmptyVertexArray::bind() const {
+void VertexArray::attribute(unsigned location, Type type, int count, std::size_t offset) {
+    glEnableVertexArrayAttrib(m_name.get(), location);
+    glVertexArrayAttribFormat(m_name.get(), location, count, type == Type::Half ? GL_HALF_FLOAT : GL_FLOAT, GL_FALSE,
+                              static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(m_name.get(), location, 0);
+}
+
+void VertexArray::bind() const { glBindVertexArray(m_name.get()); }
+
+void VertexArray::bind(const Buffer& vertices, std::size_t vertexBytes, const Buffer& indices) const {
     glBindVertexArray(m_name.get());
+    glBindVertexBuffer(0, vertices.m_name.get(), 0, static_cast<GLsizei>(vertexBytes));
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.m_name.get());
 }
 
 void drawTriangles(std::size_t first, std::size_t count) {
@@ -73,6 +84,10 @@ void drawIndexed16(std::size_t first, std::size_t count) {
                    reinterpret_cast<const void*>(first * 2));
 }
 
+void drawIndexed32(std::size_t count) {
+    if (count > 0) glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
+}
+
 void dispatch(std::size_t groups) {
     // One dimension holds at least 65,535 groups; two dimensions hold the rest.
     constexpr std::size_t width = 32768;
@@ -84,6 +99,8 @@ void dispatch(std::size_t groups) {
 void storageBarrier() {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
+
+void vertexBarrier() { glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT); }
 
 void scissor(glm::ivec4 xywh) {
     glEnable(GL_SCISSOR_TEST);

@@ -31,11 +31,16 @@ struct DrawState {
 };
 void apply(const DrawState& state);
 
-/// Shaders pull their vertices from storage buffers by gl_VertexID: there are no vertex attributes.
-class EmptyVertexArray {
+/// Where vertices come from. Without attributes, shaders pull them from storage buffers by gl_VertexID.
+class VertexArray {
 public:
-    EmptyVertexArray();
+    VertexArray();
+    enum class Type { Float, Half };
+    /// Attribute `location` of `count` numbers at `offset` in each vertex.
+    void attribute(unsigned location, Type type, int count, std::size_t offset);
     void bind() const;
+    /// Vertices of `vertexBytes` each and 32-bit indices for drawIndexed32.
+    void bind(const Buffer& vertices, std::size_t vertexBytes, const Buffer& indices) const;
 
 private:
     Name m_name;
@@ -45,9 +50,13 @@ void drawTriangles(std::size_t first, std::size_t count);
 void drawLines(std::size_t first, std::size_t count);
 /// 16-bit indices from the bound index buffer; `first` in indices.
 void drawIndexed16(std::size_t first, std::size_t count);
+/// Triangles of 32-bit indices from the vertex array's index buffer.
+void drawIndexed32(std::size_t count);
 void dispatch(std::size_t groups);
 /// What compute shaders wrote is seen by the shaders that follow.
 void storageBarrier();
+/// The same for vertices.
+void vertexBarrier();
 void scissor(glm::ivec4 xywh);
 void noScissor();
 /// Draws go into a framebuffer that others own (0: the window).

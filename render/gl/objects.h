@@ -68,6 +68,7 @@ public:
     std::size_t size() const { return m_size; }
 
 private:
+    friend class VertexArray;
     Name m_name;
     std::size_t m_size = 0;
 };

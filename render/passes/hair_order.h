@@ -13,8 +13,10 @@ namespace whorl {
 
 /// How much of the hair is drawn.
 struct HairDetail {
-    std::uint32_t stride = 1;         ///< every stride-th hair; the others' width is added to it
+    std::uint32_t stride = 1;         ///< every stride-th hair is drawn
     std::uint32_t pointsPerHair = 2;  ///< places along each curve, at least 2
+    float widthScale = 1.0f;          ///< what is drawn is this much wider than the hair
+    bool wholeHairs = false;          ///< ordered by hair and not by segment: coarser and faster
     bool operator==(const HairDetail&) const = default;
 
     std::uint32_t hairs(const Strands& strands) const {
@@ -22,13 +24,13 @@ struct HairDetail {
     }
 };
 
-/// Segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way that the eye
+/// Drawn hairs, or segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way that the eye
 /// looks). Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
 class HairOrder {
 public:
     /// Recomputes only when something differs from the last call. True when it did.
     bool update(const Strands& strands, const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward);
-    const std::vector<std::uint32_t>& segments() const { return m_segments; }
+    const std::vector<std::uint32_t>& order() const { return m_segments; }
     void clear();
 
 private:

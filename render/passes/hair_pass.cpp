@@ -11,7 +11,7 @@
 namespace whorl {
 namespace {
 
-constexpr std::size_t pointBytes = 32;
+constexpr std::size_t vertexBytes = 32;  // of hair_points.comp.glsl
 
 // The skin's normal at each root and a random number that stays with the hair's id.
 std::vector<glm::vec4> rootInfo(const Strands& strands, const SurfaceMesh& mesh) {
@@ -51,8 +51,12 @@ Result<HairPass> HairPass::create() {
     pass.m_colours = gl::Buffer("hair colours");
     pass.m_first = gl::Buffer("hair first vertices");
     pass.m_roots = gl::Buffer("hair roots");
-    pass.m_pointBuffer = gl::Buffer("hair points");
+    pass.m_vertices = gl::Buffer("hair vertices");
     pass.m_orderBuffer = gl::Buffer("hair order");
+    pass.m_indices = gl::Buffer("hair indices");
+    pass.m_vertexArray.attribute(0, gl::VertexArray::Type::Float, 4, 0);
+    pass.m_vertexArray.attribute(1, gl::VertexArray::Type::Half, 4, 16);
+    pass.m_vertexArray.attribute(2, gl::VertexArray::Type::Float, 2, 24);
     return pass;
 }
 
@@ -60,6 +64,7 @@ void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceM
     if (strands == m_strands) return;
     m_strands = std::move(strands);
     m_order.clear();
+    m_indexedDetail = {};
     if (m_strands == nullptr || m_strands->count() == 0) {
         m_strands = nullptr;
         return;
@@ -75,34 +80,60 @@ void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceM
 
 void HairPass::prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward) {
     if (m_strands == nullptr) return;
-    m_detail = detail;
-    const std::size_t points = std::size_t{detail.hairs(*m_strands)} * detail.pointsPerHair;
-    m_pointBuffer.reserve(points * pointBytes);
+    const std::size_t hairs = detail.hairs(*m_strands);
+    const std::size_t points = hairs * detail.pointsPerHair;
+    const bool reordered = m_order.update(*m_strands, detail, eye, forward);
+    if (reordered && detail.wholeHairs) m_orderBuffer.upload(m_order.order());
+    m_vertices.reserve(points * 2 * vertexBytes);
     m_positions.bindStorage(0);
     m_widths.bindStorage(1);
     m_colours.bindStorage(2);
     m_first.bindStorage(3);
     m_roots.bindStorage(4);
-    m_pointBuffer.bindStorage(5);
-    m_points.set("hairCount", detail.hairs(*m_strands));
+    m_orderBuffer.bindStorage(5);
+    m_vertices.bindStorage(6);
+    m_points.set("hairCount", static_cast<unsigned>(hairs));
     m_points.set("stride", detail.stride);
     m_points.set("pointsPerHair", detail.pointsPerHair);
-    m_points.set("widthScale", static_cast<float>(detail.stride));
+    m_points.set("widthScale", detail.widthScale);
+    m_points.set("ordered", detail.wholeHairs ? 1 : 0);
     m_points.use();
     gl::dispatch((points + 63) / 64);
-    if (m_order.update(*m_strands, detail, eye, forward)) m_orderBuffer.upload(m_order.segments());
-    gl::storageBarrier();
+    makeIndices(detail, reordered);
+    gl::vertexBarrier();
+}
+
+void HairPass::makeIndices(const HairDetail& detail, bool reordered) {
+    const std::size_t pieces = detail.pointsPerHair - 1;
+    const std::size_t segments = detail.hairs(*m_strands) * pieces;
+    // Whole hairs: the compute shader puts them in order, and the indices depend on the numbers only.
+    if (detail.wholeHairs ? detail == m_indexedDetail : !reordered) return;
+    m_indexedDetail = detail.wholeHairs ? detail : HairDetail{};
+    m_indexScratch.resize(segments * 6);
+    parallelFor(segments, 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto segment = detail.wholeHairs ? static_cast<std::uint32_t>(i) : m_order.order()[i];
+            // A hair has one point more than segments; a point has two vertices.
+            const std::uint32_t left = 2 * (segment + segment / static_cast<std::uint32_t>(pieces));
+            std::uint32_t* out = m_indexScratch.data() + i * 6;
+            out[0] = left;
+            out[1] = left + 2;
+            out[2] = left + 1;
+            out[3] = left + 1;
+            out[4] = left + 2;
+            out[5] = left + 3;
+        }
+    });
+    m_indices.upload(m_indexScratch);
+    m_indexCount = segments * 6;
 }
 
 void HairPass::draw(bool smooth) {
     if (m_strands == nullptr) return;
-    gl::Program& program = smooth ? m_ribbons : m_plainRibbons;
-    program.set("pointsPerHair", m_detail.pointsPerHair);
-    program.use();
-    m_pointBuffer.bindStorage(5);
-    m_orderBuffer.bindStorage(6);
+    (smooth ? m_ribbons : m_plainRibbons).use();
     gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
-    gl::drawTriangles(0, m_order.segments().size() * 6);
+    m_vertexArray.bind(m_vertices, vertexBytes, m_indices);
+    gl::drawIndexed32(m_indexCount);
 }
 
 }  // namespace whorl

@@ -28,19 +28,25 @@ public:
     void draw(bool smooth);
 
 private:
+    void makeIndices(const HairDetail& detail, bool reordered);
+
     std::shared_ptr<const Strands> m_strands;
-    HairDetail m_detail{};
     HairOrder m_order;
     gl::Program m_points;
     gl::Program m_ribbons;
     gl::Program m_plainRibbons;
+    gl::VertexArray m_vertexArray;
     gl::Buffer m_positions;
     gl::Buffer m_widths;
     gl::Buffer m_colours;
     gl::Buffer m_first;
     gl::Buffer m_roots;
-    gl::Buffer m_pointBuffer;
+    gl::Buffer m_vertices;
     gl::Buffer m_orderBuffer;
+    gl::Buffer m_indices;
+    std::vector<std::uint32_t> m_indexScratch;
+    HairDetail m_indexedDetail{};  // of the indices when hairs are ordered whole
+    std::size_t m_indexCount = 0;
 };
 
 }  // namespace whorl

@@ -18,25 +18,25 @@ ShadowPass::ShadowPass() {
     m_mapTarget = gl::Framebuffer("mesh shadow map", nullptr, &m_map);
 }
 
-void ShadowPass::update(const Strands* hair, const ViewSettings& settings, std::uint32_t stride,
+void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail,
                         const Bounds& meshBounds, MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer) {
     const glm::vec3 light(scene.keyDirection);
     const bool shadows = settings.shadows == ShadowMode::Voxel;
     scene.shadow.x = 0.0f;
     scene.shadow.y = 1.0f / static_cast<float>(mapSize);
     if (hair != nullptr && shadows) {
-        if (!m_hairValid || m_hairLight != light || m_stride != stride) {
-            m_voxels.build(*hair, stride, light);
+        if (!m_hairValid || m_hairLight != light || !(m_detail == detail)) {
+            m_voxels.build(*hair, detail, light);
             m_hairVolume.upload3D(m_voxels.texels().data());
             m_hairLight = light;
             m_hairValid = true;
         }
-        if (!m_ambientValid || m_stride != stride) {
-            m_ambient.build(*hair, stride);
+        if (!m_ambientValid || !(m_detail == detail)) {
+            m_ambient.build(*hair, detail);
             m_ambientVolume.upload3D(m_ambient.texels().data());
             m_ambientValid = true;
         }
-        m_stride = stride;
+        m_detail = detail;
         scene.voxelFromGroom = m_voxels.voxelFromGroom();
         scene.shadow.x = std::log2(std::clamp(settings.shadowAlpha, 0.01f, 1.0f)) * VoxelShadow::fullLayers;
         scene.ambientScale = glm::vec4(m_ambient.scale(), 0.0f);

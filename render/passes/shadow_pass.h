@@ -20,7 +20,7 @@ public:
     }
     /// Makes what is out of date and fills the places of it in `scene`. `hair` and `mesh` may be null. Draws the shadow
     /// map with `sceneBuffer`.
-    void update(const Strands* hair, const ViewSettings& settings, std::uint32_t stride, const Bounds& meshBounds,
+    void update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail, const Bounds& meshBounds,
                 MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer);
     void bind() const;
 
@@ -35,7 +35,7 @@ private:
     AmbientVolume m_ambient;
     glm::vec3 m_hairLight{0.0f};
     glm::vec3 m_mapLight{0.0f};
-    std::uint32_t m_stride = 0;
+    HairDetail m_detail{};
     bool m_meshDrawn = false;
     bool m_hairValid = false;
     bool m_ambientValid = false;

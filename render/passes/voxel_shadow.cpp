@@ -65,10 +65,6 @@ void walk(const Strands& strands, std::uint32_t stride, std::size_t begin, std::
     }
 }
 
-std::size_t drawnHairs(const Strands& strands, std::uint32_t stride) {
-    return (strands.count() + stride - 1) / stride;
-}
-
 void add(std::uint32_t& cell, std::uint32_t amount) {
     std::atomic_ref<std::uint32_t>(cell).fetch_add(amount, std::memory_order_relaxed);
 }
@@ -130,7 +126,7 @@ void VoxelShadow::place(const Strands& strands, const glm::vec3& towardsLight) {
     m_matrix[3] = glm::vec4(-low.x * scale.x, -low.y * scale.y, 1.0f + low.z * scale.z, 1.0f);
 }
 
-void VoxelShadow::build(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight) {
+void VoxelShadow::build(const Strands& strands, const HairDetail& detail, const glm::vec3& towardsLight) {
     m_empty = strands.vertexCount() == 0;
     m_texels.resize(cells);
     if (m_empty) {
@@ -145,9 +141,9 @@ void VoxelShadow::build(const Strands& strands, std::uint32_t stride, const glm:
     });
     glm::mat4 toGrid = m_matrix;
     for (int column = 0; column < 4; ++column) toGrid[column] *= static_cast<float>(side);
-    const float countsOfArea = layersOfCoverage * fixedPoint * static_cast<float>(stride) / (m_voxel.x * m_voxel.y);
-    parallelFor(drawnHairs(strands, stride), grain, [&](std::size_t begin, std::size_t end) {
-        walk(strands, stride, begin, end, toGrid, side, countsOfArea,
+    const float countsOfArea = layersOfCoverage * fixedPoint * detail.widthScale / (m_voxel.x * m_voxel.y);
+    parallelFor(detail.hairs(strands), grain, [&](std::size_t begin, std::size_t end) {
+        walk(strands, detail.stride, begin, end, toGrid, side, countsOfArea,
              [&](std::size_t cell, std::uint32_t amount) { add(m_counts[cell], amount); });
     });
     // Rows in y are independent: each sums its own columns along z, then spreads one voxel to both sides in x.
@@ -179,7 +175,7 @@ void VoxelShadow::build(const Strands& strands, std::uint32_t stride, const glm:
     });
 }
 
-void VoxelShadow::buildReference(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight) {
+void VoxelShadow::buildReference(const Strands& strands, const HairDetail& detail, const glm::vec3& towardsLight) {
     m_empty = strands.vertexCount() == 0;
     m_texels.assign(cells, 0);
     if (m_empty) return;
@@ -187,8 +183,8 @@ void VoxelShadow::buildReference(const Strands& strands, std::uint32_t stride, c
     m_counts.assign(cells, 0);
     glm::mat4 toGrid = m_matrix;
     for (int column = 0; column < 4; ++column) toGrid[column] *= static_cast<float>(side);
-    const float countsOfArea = layersOfCoverage * fixedPoint * static_cast<float>(stride) / (m_voxel.x * m_voxel.y);
-    walk(strands, stride, 0, drawnHairs(strands, stride), toGrid, side, countsOfArea,
+    const float countsOfArea = layersOfCoverage * fixedPoint * detail.widthScale / (m_voxel.x * m_voxel.y);
+    walk(strands, detail.stride, 0, detail.hairs(strands), toGrid, side, countsOfArea,
          [&](std::size_t cell, std::uint32_t amount) { m_counts[cell] += amount; });
     constexpr float texelsOfCount = 65535.0f / (fullLayers * fixedPoint);
     const auto count = [&](std::size_t x, std::size_t y, std::size_t z) { return m_counts[z * slice + y * side + x]; };
@@ -213,7 +209,7 @@ void VoxelShadow::buildReference(const Strands& strands, std::uint32_t stride, c
     }
 }
 
-void AmbientVolume::build(const Strands& strands, std::uint32_t stride) {
+void AmbientVolume::build(const Strands& strands, const HairDetail& detail) {
     constexpr int n = size;
     constexpr std::size_t count = std::size_t{n} * n * n;
     m_texels.assign(count, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
@@ -235,8 +231,8 @@ void AmbientVolume::build(const Strands& strands, std::uint32_t stride) {
     }
     toGrid[3] = glm::vec4(m_offset * static_cast<float>(n), 1.0f);
     std::vector<std::uint32_t> counts(count, 0);
-    parallelFor(drawnHairs(strands, stride), grain, [&](std::size_t begin, std::size_t end) {
-        walk(strands, stride, begin, end, toGrid, n, fixedPoint * static_cast<float>(stride) / (cell * cell),
+    parallelFor(detail.hairs(strands), grain, [&](std::size_t begin, std::size_t end) {
+        walk(strands, detail.stride, begin, end, toGrid, n, fixedPoint * detail.widthScale / (cell * cell),
              [&](std::size_t at, std::uint32_t amount) { add(counts[at], amount); });
     });
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/hair/strands.h"
+#include "render/passes/hair_order.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -23,12 +24,12 @@ public:
     /// Layers of hair that the largest texel means.
     static constexpr float fullLayers = 64.0f;
 
-    /// `towardsLight` is a unit vector. Every stride-th hair counts `stride` times. A layer is a quarter of what would
+    /// `towardsLight` is a unit vector. Hairs count by their width as drawn. A layer is a quarter of what would
     /// cover a voxel's side, so that shadows do not depend on the grid.
-    void build(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight);
+    void build(const Strands& strands, const HairDetail& detail, const glm::vec3& towardsLight);
     /// The same with one thread and plain loops, additions at the nearest voxel one by one; for tests and the
     /// benchmark.
-    void buildReference(const Strands& strands, std::uint32_t stride, const glm::vec3& towardsLight);
+    void buildReference(const Strands& strands, const HairDetail& detail, const glm::vec3& towardsLight);
 
     /// size cubed; x fastest, z from the light inwards; 65535 means fullLayers.
     const std::vector<std::uint16_t>& texels() const { return m_texels; }
@@ -52,7 +53,7 @@ class AmbientVolume {
 public:
     static constexpr int size = 32;
 
-    void build(const Strands& strands, std::uint32_t stride);
+    void build(const Strands& strands, const HairDetail& detail);
     /// size cubed; xyz: sum of the directions that are open (up to unit length), w: open share, 0 to 1.
     const std::vector<glm::vec4>& texels() const { return m_texels; }
     /// position * scale + offset is 0 to 1 in the volume.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every hair at `pointsPerHair` even places of its Catmull-Rom curve: projected, and lit by Kajiya-Kay.
-// Once a point, so that the ribbons that share it only look it up.
+// Once a point: the two corners of the ribbon there, ready for the rasteriser.
 layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "lighting.glsl"
@@ -9,15 +9,18 @@ layout(std430, binding = 1) readonly buffer Widths { float widths[]; };
 layout(std430, binding = 2) readonly buffer Colours { vec4 colours[]; };
 layout(std430, binding = 3) readonly buffer First { uint firstVertex[]; };
 layout(std430, binding = 4) readonly buffer Roots { vec4 roots[]; };  // normal of the skin, random number
-struct Point {
+layout(std430, binding = 5) readonly buffer Order { uint order[]; };  // hair of each place, when ordered
+struct Vertex {
     vec4 clip;
-    uvec4 bits;  // across (pixels, snorm), half width and opacity, red and green, blue
+    uvec2 colour;  // four halves
+    vec2 across;   // pixels from the middle, half width
 };
-layout(std430, binding = 5) writeonly buffer Points { Point points[]; };
+layout(std430, binding = 6) writeonly buffer Vertices { Vertex vertices[]; };  // left and right of each point
 uniform uint hairCount;      // drawn
 uniform uint stride;         // every stride-th hair is drawn
 uniform uint pointsPerHair;
 uniform float widthScale;    // for the hairs left out
+uniform int ordered;
 
 vec3 vertexAt(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]); }
 float sine(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
@@ -45,6 +48,7 @@ void main() {
     uint hair = index / pointsPerHair;
     if (hair >= hairCount) return;
     uint stepIndex = index - hair * pointsPerHair;
+    if (ordered != 0) hair = order[hair];
     hair *= stride;
     uint first = firstVertex[hair];
     uint last = firstVertex[hair + 1u] - 1u;
@@ -69,18 +73,17 @@ void main() {
     float width = mix(widths[low], widths[next], t) * widthScale;
     vec4 root = roots[hair];
 
-    Point point;
-    point.clip = scene.clipFromGroom * vec4(position, 1.0);
+    vec4 clip = scene.clipFromGroom * vec4(position, 1.0);
     vec4 ahead = scene.clipFromGroom * vec4(tangent, 0.0);
-    vec2 direction = (ahead.xy * point.clip.w - point.clip.xy * ahead.w) * scene.viewport.xy;
+    vec2 direction = (ahead.xy * clip.w - clip.xy * ahead.w) * scene.viewport.xy;
     float directionLength = length(direction);
     vec2 across = directionLength > 1e-12 ? vec2(-direction.y, direction.x) / directionLength : vec2(1.0, 0.0);
-    float pixels = width * scene.pixel.x / max(point.clip.w, 1e-6);
+    float pixels = width * scene.pixel.x / max(clip.w, 1e-6);
     // Thinner than the limit: as wide as the limit, and as much more transparent.
     float opacity = own.a * min(pixels / scene.pixel.y, 1.0);
     // Behind the eye, or not a curve: out of the picture.
-    if (point.clip.w < 1e-4 || last <= first) {
-        point.clip = vec4(2.0, 2.0, 2.0, 1.0);
+    if (clip.w < 1e-4 || last <= first) {
+        clip = vec4(2.0, 2.0, 2.0, 1.0);
         opacity = 0.0;
     }
 
@@ -102,7 +105,10 @@ void main() {
     lit += scene.rimColour.rgb * visible * visible * strandLight(tangent, normal, toEye, scene.rimDirection.xyz, albedo, root.w, wrapRim);
     lit += hemisphere(outward) * scene.hair.w * albedo * visible;
 
-    point.bits = uvec4(packSnorm2x16(across), packHalf2x16(vec2(max(pixels, scene.pixel.y) * 0.5, opacity)),
-                         packHalf2x16(lit.rg), packHalf2x16(vec2(lit.b, 0.0)));
-    points[index] = point;
+    float halfWidth = max(pixels, scene.pixel.y) * 0.5;
+    float reach = halfWidth + scene.pixel.z;
+    vec4 offset = vec4(across * (reach * 2.0 * clip.w) * scene.viewport.zw, 0.0, 0.0);
+    uvec2 colour = uvec2(packHalf2x16(lit.rg), packHalf2x16(vec2(lit.b, opacity)));
+    vertices[2u * index] = Vertex(clip - offset, colour, vec2(-reach, halfWidth));
+    vertices[2u * index + 1u] = Vertex(clip + offset, colour, vec2(reach, halfWidth));
 }
