@@ -31,9 +31,12 @@ struct Effort {
     float resolution = 1.0f;
     int shadowTaps = 9;
     bool smoothHair = true;
+    bool litByVertex = false;
+    float lightSlack = 0.0f;  // radians that the light may turn before shadows follow
 };
 
-Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, const Strands* strands) {
+Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, std::size_t triangles,
+                 const Strands* strands) {
     Effort effort;
     effort.samples = std::clamp(settings.samples, 1, std::min(4, context.maxSamples));
     if (effort.samples == 3) effort.samples = 2;
@@ -42,13 +45,16 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, c
         effort.samples = 1;
         effort.shadowTaps = 1;
         effort.smoothHair = false;
+        effort.resolution = 0.67f;
+        effort.litByVertex = triangles < 40000;
+        effort.lightSlack = 0.15f;
     }
     if (strands != nullptr && strands->count() > 0) {
         const std::size_t count = strands->count();
         const std::size_t pieces = std::max<std::size_t>(strands->vertexCount() / count, 2) - 1;
         if (reduced) {
-            constexpr std::size_t segments = 24000;
-            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 6)) + 1;
+            constexpr std::size_t segments = 18000;
+            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 5)) + 1;
             const std::size_t hairs = std::max<std::size_t>(segments / (effort.hair.pointsPerHair - 1), 1);
             effort.hair.stride = static_cast<std::uint32_t>((count + hairs - 1) / hairs);
         } else {
@@ -57,7 +63,7 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, c
         effort.hair.wholeHairs = reduced;
         const float drawn = static_cast<float>(effort.hair.hairs(*strands));
         const float fuller = std::pow(std::max(settings.fullCount / static_cast<float>(count), 1.0f), 0.6f);
-        effort.hair.widthScale = std::min(fuller, 3.0f) * static_cast<float>(count) / drawn;
+        effort.hair.widthScale = std::min(fuller, 3.0f) * std::pow(static_cast<float>(count) / drawn, 0.8f);
     }
     return effort;
 }
@@ -154,7 +160,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     State& state = *m_state;
     size = glm::max(size, glm::ivec2(1));
     const Strands* hair = settings.showHair ? state.hair.strands() : nullptr;
-    const Effort effort = effortFor(settings, state.context, hair);
+    const Effort effort = effortFor(settings, state.context, state.mesh.triangles(), hair);
     const glm::ivec2 drawn = glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
 
     state.vertexArray.bind();
@@ -163,7 +169,8 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     scene.shadow.w = static_cast<float>(effort.shadowTaps);
     const auto shadowStart = std::chrono::steady_clock::now();
     state.shadowTimer.begin();
-    state.shadows.update(hair, settings, effort.hair, state.surface != nullptr ? state.surface->bounds : bounds,
+    state.shadows.update(hair, settings, effort.hair, effort.lightSlack,
+                         state.surface != nullptr ? state.surface->bounds : bounds,
                          settings.showMesh ? &state.mesh : nullptr, scene, state.sceneBuffer);
     state.shadowTimer.end();
     state.shadowMilliseconds = milliseconds(shadowStart);
@@ -178,12 +185,11 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     }
     state.picture.begin(drawn, effort.samples);
     state.picture.drawBackground(settings);
-    if (settings.showMesh) state.mesh.draw(settings, state.uploads);
+    if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, state.uploads);
     if (hair != nullptr) state.hair.draw(effort.smoothHair);
     state.vertexArray.bind();
     if (settings.showGuides) state.guides.draw();
-    gl::bindTarget(target, size);
-    state.picture.finish(settings);
+    state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);
     state.drawTimer.end();
     gl::restoreState();

@@ -63,7 +63,9 @@ void VertexArray::attribute(unsigned location, Type type, int count, std::size_t
     glVertexArrayAttribBinding(m_name.get(), location, 0);
 }
 
-void VertexArray::bind() const { glBindVertexArray(m_name.get()); }
+void VertexArray::bind() const {
+    glBindVertexArray(m_name.get());
+}
 
 void VertexArray::bind(const Buffer& vertices, std::size_t vertexBytes, const Buffer& indices) const {
     glBindVertexArray(m_name.get());
@@ -100,7 +102,9 @@ void storageBarrier() {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void vertexBarrier() { glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT); }
+void vertexBarrier() {
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
 
 void scissor(glm::ivec4 xywh) {
     glEnable(GL_SCISSOR_TEST);

@@ -204,6 +204,11 @@ void Framebuffer::resolveTo(const Framebuffer& other) const {
                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void Framebuffer::stretchTo(unsigned target, glm::ivec2 size) const {
+    glBlitNamedFramebuffer(m_name.get(), target, 0, 0, m_size.x, m_size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT,
+                           GL_LINEAR);
+}
+
 void Framebuffer::clearColour(glm::vec4 colour) const {
     glClearNamedFramebufferfv(m_name.get(), GL_COLOR, 0, &colour.x);
 }

@@ -113,6 +113,8 @@ public:
     void bind() const;
     /// Copies (and resolves) colour to another of the same size.
     void resolveTo(const Framebuffer& other) const;
+    /// Copies colour, smoothly scaled, to a framebuffer that others own (0: the window).
+    void stretchTo(unsigned target, glm::ivec2 size) const;
     void clearColour(glm::vec4 colour) const;
     void clearDepth() const;
     glm::ivec2 size() const { return m_size; }

@@ -24,8 +24,8 @@ struct HairDetail {
     }
 };
 
-/// Drawn hairs, or segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way that the eye
-/// looks). Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
+/// Drawn hairs, or segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way
+/// that the eye looks). Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
 class HairOrder {
 public:
     /// Recomputes only when something differs from the last call. True when it did.

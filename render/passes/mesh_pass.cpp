@@ -10,9 +10,12 @@ Result<MeshPass> MeshPass::create(int maxTextureSize) {
     pass.m_maxTextureSize = maxTextureSize;
     Result<gl::Program> program = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl");
     if (!program) return program.error();
+    Result<gl::Program> vertexLit = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl", "#define VERTEX_LIT\n");
+    if (!vertexLit) return vertexLit.error();
     Result<gl::Program> shadow = gl::Program::draw("mesh.vert.glsl", "empty.frag.glsl", "#define SHADOW\n");
     if (!shadow) return shadow.error();
     pass.m_program = std::move(*program);
+    pass.m_vertexLitProgram = std::move(*vertexLit);
     pass.m_shadowProgram = std::move(*shadow);
     pass.m_positions = gl::Buffer("mesh positions");
     pass.m_normals = gl::Buffer("mesh normals");
@@ -50,7 +53,7 @@ void MeshPass::bindBuffers() const {
     m_uvs.bindStorage(3);
 }
 
-void MeshPass::draw(const ViewSettings& settings, Uploads& uploads) {
+void MeshPass::draw(const ViewSettings& settings, bool litByVertex, Uploads& uploads) {
     if (m_triangles == 0) return;
     const auto textureOf = [&](const std::string& name) -> const MapTexture* {
         const Map* map = name.empty() ? nullptr : m_maps.find(name);
@@ -59,13 +62,14 @@ void MeshPass::draw(const ViewSettings& settings, Uploads& uploads) {
         if (texture.empty()) texture.update(*map, m_maxTextureSize, uploads);
         return &texture;
     };
+    gl::Program& program = litByVertex ? m_vertexLitProgram : m_program;
     const MapTexture* overlay = textureOf(settings.overlayMap);
-    m_program.set("overlayOpacity", overlay != nullptr ? std::clamp(settings.overlayOpacity, 0.0f, 1.0f) : 0.0f);
+    program.set("overlayOpacity", overlay != nullptr ? std::clamp(settings.overlayOpacity, 0.0f, 1.0f) : 0.0f);
     if (overlay != nullptr) {
         overlay->bind(4);
-        m_program.set("overlayFlipped", overlay->map().flipV ? 1 : 0);
-        m_program.set("overlayColours", overlay->map().channels() == 3 ? 1 : 0);
-        m_program.set("overlayRange", 1.0f);
+        program.set("overlayFlipped", overlay->map().flipV ? 1 : 0);
+        program.set("overlayColours", overlay->map().channels() == 3 ? 1 : 0);
+        program.set("overlayRange", 1.0f);
     } else {
         m_white.bind(4);
     }
@@ -75,18 +79,18 @@ void MeshPass::draw(const ViewSettings& settings, Uploads& uploads) {
         const MeshPart& part = m_mesh->parts[i];
         if (i < m_parts.size() && !m_parts[i].visible) continue;
         const MapTexture* texture = settings.showTexture ? textureOf(part.texture) : nullptr;
-        m_program.set("baseColour", part.baseColour);
+        program.set("baseColour", part.baseColour);
         int textured = 0;
         if (texture != nullptr) {
             texture->bind(3);
             // 8-bit sRGB is decoded by the card, 16-bit by the shader.
             textured = texture->map().srgb && texture->map().format() == TexelFormat::U16 ? 2 : 1;
-            m_program.set("textureFlipped", texture->map().flipV ? 1 : 0);
+            program.set("textureFlipped", texture->map().flipV ? 1 : 0);
         } else {
             m_white.bind(3);
         }
-        m_program.set("textured", textured);
-        m_program.use();
+        program.set("textured", textured);
+        program.use();
         gl::drawTriangles(std::size_t{3} * part.firstTriangle, std::size_t{3} * part.triangleCount);
     }
 }

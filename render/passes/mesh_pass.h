@@ -21,16 +21,18 @@ public:
     /// Uploads what differs from the last call.
     void setGroom(const Groom& groom, Uploads& uploads);
     /// Scene block, volumes and shadow map must be bound.
-    void draw(const ViewSettings& settings, Uploads& uploads);
+    /// `litByVertex`: cheaper, for meshes with fewer corners than they cover pixels.
+    void draw(const ViewSettings& settings, bool litByVertex, Uploads& uploads);
     /// Depth of all visible parts in the projection of scene.shadowFromGroom.
     void drawShadow();
-    bool empty() const { return m_triangles == 0; }
+    std::size_t triangles() const { return m_triangles; }
 
 private:
     void bindBuffers() const;
 
     int m_maxTextureSize = 0;
     gl::Program m_program;
+    gl::Program m_vertexLitProgram;
     gl::Program m_shadowProgram;
     gl::Buffer m_positions;
     gl::Buffer m_normals;

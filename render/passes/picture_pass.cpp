@@ -42,13 +42,28 @@ void PicturePass::drawBackground(const ViewSettings& settings) {
     gl::drawTriangles(0, 3);
 }
 
-void PicturePass::finish(const ViewSettings& settings) {
+void PicturePass::finish(const ViewSettings& settings, unsigned target, glm::ivec2 size) {
     if (m_samples > 1) m_target.resolveTo(m_resolvedTarget);
+    const bool scaled = size != m_target.size();
+    if (scaled) {
+        if (!m_smallTarget || m_smallTarget.size() != m_target.size()) {
+            m_smallTarget = gl::Framebuffer();
+            m_small = gl::Texture::make2D("finished picture", gl::Format::Rgba8, m_target.size(), gl::Wrap::Clamp);
+            m_smallTarget = gl::Framebuffer("finished picture", &m_small, nullptr);
+        }
+        m_smallTarget.bind();
+    } else {
+        gl::bindTarget(target, size);
+    }
     (m_samples > 1 ? m_resolved : m_colour).bind(0);
     m_finish.set("exposure", std::max(settings.exposure, 0.0f));
     m_finish.use();
     gl::apply({.depth = gl::Depth::None});
     gl::drawTriangles(0, 3);
+    if (scaled) {
+        m_smallTarget.stretchTo(target, size);
+        gl::bindTarget(target, size);
+    }
 }
 
 }  // namespace whorl

@@ -11,11 +11,11 @@ namespace whorl {
 class PicturePass {
 public:
     static Result<PicturePass> create();
-    /// Binds the own framebuffer of that size and number of samples, cleared.
+    /// Binds the own framebuffer of that size and number of samples, with its depth cleared.
     void begin(glm::ivec2 size, int samples);
     void drawBackground(const ViewSettings& settings);
-    /// Into the bound target, scaled to its size.
-    void finish(const ViewSettings& settings);
+    /// Into the target, scaled to its size.
+    void finish(const ViewSettings& settings, unsigned target, glm::ivec2 size);
 
 private:
     gl::Program m_background;
@@ -23,8 +23,10 @@ private:
     gl::Texture m_colour;
     gl::Texture m_depth;
     gl::Texture m_resolved;
+    gl::Texture m_small;
     gl::Framebuffer m_target;
     gl::Framebuffer m_resolvedTarget;
+    gl::Framebuffer m_smallTarget;
     int m_samples = 0;
 };
 

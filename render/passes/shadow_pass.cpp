@@ -18,14 +18,17 @@ ShadowPass::ShadowPass() {
     m_mapTarget = gl::Framebuffer("mesh shadow map", nullptr, &m_map);
 }
 
-void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail,
+void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail, float lightSlack,
                         const Bounds& meshBounds, MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer) {
     const glm::vec3 light(scene.keyDirection);
     const bool shadows = settings.shadows == ShadowMode::Voxel;
+    const auto moved = [&](const glm::vec3& before) {
+        return lightSlack > 0.0f ? glm::dot(before, light) < std::cos(lightSlack) : before != light;
+    };
     scene.shadow.x = 0.0f;
     scene.shadow.y = 1.0f / static_cast<float>(mapSize);
     if (hair != nullptr && shadows) {
-        if (!m_hairValid || m_hairLight != light || !(m_detail == detail)) {
+        if (!m_hairValid || moved(m_hairLight) || !(m_detail == detail)) {
             m_voxels.build(*hair, detail, light);
             m_hairVolume.upload3D(m_voxels.texels().data());
             m_hairLight = light;
@@ -43,12 +46,14 @@ void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const
         scene.ambientOffset = glm::vec4(m_ambient.offset(), 0.0f);
     }
 
-    scene.shadowFromGroom = shadowMatrix(light, meshBounds);
+    const bool drawn = mesh != nullptr && shadows;
+    const bool outdated = !m_mapValid || moved(m_mapLight) || m_meshDrawn != drawn;
+    if (outdated) m_mapLight = light;
+    scene.shadowFromGroom = shadowMatrix(m_mapLight, meshBounds);
     const float radius = meshBounds.empty() ? 1.0f : glm::length(meshBounds.size()) * 0.51f;
     // Two texels out of the skin, so that it does not shadow itself.
     scene.shadow.z = 2.0f * 2.0f * radius / static_cast<float>(mapSize);
-    const bool drawn = mesh != nullptr && shadows;
-    if (!m_mapValid || m_mapLight != light || m_meshDrawn != drawn) {
+    if (outdated) {
         m_mapTarget.bind();
         m_mapTarget.clearDepth();
         if (drawn) {
@@ -57,7 +62,6 @@ void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const
             mesh->drawShadow();
         }
         m_mapValid = true;
-        m_mapLight = light;
         m_meshDrawn = drawn;
     }
 }

@@ -18,10 +18,11 @@ public:
         m_hairValid = false;
         m_ambientValid = false;
     }
-    /// Makes what is out of date and fills the places of it in `scene`. `hair` and `mesh` may be null. Draws the shadow
+    /// Makes what is out of date and fills the places of it in `scene`. `hair` and `mesh` may be null. Shadows
+    /// stay while the light is within `lightSlack` radians of the one that made them. Draws the shadow
     /// map with `sceneBuffer`.
-    void update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail, const Bounds& meshBounds,
-                MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer);
+    void update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail, float lightSlack,
+                const Bounds& meshBounds, MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer);
     void bind() const;
 
 private:

@@ -6,6 +6,6 @@ uniform vec3 centreColour;
 uniform float aspect;
 void main() {
     vec2 from = (place - vec2(0.5, 0.54)) * vec2(aspect, 1.0);
-    float edge = clamp(dot(from, from) * 1.9, 0.0, 1.0);
-    colour = vec4(centreColour * mix(1.55, 0.42, edge), 1.0);
+    float edge = 1.0 / (1.0 + 3.2 * dot(from, from));
+    colour = vec4(centreColour * (0.12 + 1.4 * edge * edge), 1.0);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exposure, tone curve, sRGB encoding and a dither of half a step against bands.
-layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 colour;
 layout(binding = 0) uniform sampler2D picture;
 uniform float exposure;
@@ -29,6 +28,6 @@ float dither(uvec2 pixel) {
 }
 
 void main() {
-    vec3 linear = max(texture(picture, place).rgb, 0.0) * exposure;
+    vec3 linear = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 0.0) * exposure;
     colour = vec4(srgbFromLinear(tone(linear)) + dither(uvec2(gl_FragCoord.xy)) / 255.0, 1.0);
 }

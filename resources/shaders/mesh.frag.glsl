@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skin under studio lights, with a map in colour over it.
-#include "scene.glsl"
-#include "lighting.glsl"
+// Skin under studio lights, with a map in colour over it. VERTEX_LIT: the light comes with the vertices.
+#ifdef VERTEX_LIT
+layout(location = 0) in vec3 light;
+layout(location = 1) in vec3 gloss;
+#else
+#include "skin.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#endif
 layout(location = 2) in vec2 uv;
 layout(location = 0) out vec4 colour;
 layout(binding = 3) uniform sampler2D baseTexture;
@@ -33,9 +37,6 @@ vec3 heat(float x) {
 }
 
 void main() {
-    vec3 toEye = normalize(scene.eye.xyz - position);
-    vec3 n = normalize(normal);
-    if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
     vec3 base = baseColour;
     if (textured != 0) {
         vec3 texel = texture(baseTexture, place(uv, textureFlipped)).rgb;
@@ -46,24 +47,15 @@ void main() {
         vec3 shown = overlayColours != 0 ? texel : heat(texel.r / overlayRange);
         base = mix(base, shown, overlayOpacity);
     }
-    vec4 ambient = ambientLight(position + n * 0.004);
-    // Light that falls through hair reddens and spreads; skin below stays visible.
-    float key = meshLight(position, n) * hairLight(position + n * 0.001);
-    // Skin scatters: the shadow edge is soft and warm.
-    float facing = dot(n, scene.keyDirection.xyz);
-    vec3 wrap = vec3(0.34, 0.22, 0.18);
-    vec3 diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
-    diffuse *= diffuse;
-    vec3 light = scene.keyColour.rgb * key * diffuse;
-    light += scene.fillColour.rgb * ambient.w * clamp(dot(n, scene.fillDirection.xyz) * 0.6 + 0.4, 0.0, 1.0);
-    light += scene.rimColour.rgb * ambient.w * clamp(dot(n, scene.rimDirection.xyz), 0.0, 1.0);
-    light += hemisphere(n) * scene.hair.w * ambient.w;
-    vec3 lit = base * light;
-    // A broad, weak sheen, stronger at grazing angles.
-    vec3 halfway = normalize(scene.keyDirection.xyz + toEye);
-    float fresnel = 0.035 + 0.5 * pow(1.0 - clamp(dot(n, toEye), 0.0, 1.0), 5.0);
-    float sheen = pow(clamp(dot(n, halfway), 0.0, 1.0), 22.0) * 1.6 * key * clamp(facing * 4.0, 0.0, 1.0);
-    lit += scene.keyColour.rgb * sheen * fresnel;
-    lit += hemisphere(reflect(-toEye, n)) * fresnel * 0.35 * ambient.w * ambient.w;
-    colour = vec4(lit, 1.0);
+#ifdef VERTEX_LIT
+    colour = vec4(base * light + gloss, 1.0);
+#else
+    vec3 toEye = normalize(scene.eye.xyz - position);
+    vec3 n = normalize(normal);
+    if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
+    vec3 light;
+    vec3 gloss;
+    skinLight(position, n, toEye, light, gloss);
+    colour = vec4(base * light + gloss, 1.0);
+#endif
 }
