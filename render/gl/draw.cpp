@@ -77,10 +77,6 @@ void drawTriangles(std::size_t first, std::size_t count) {
     if (count > 0) glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
 }
 
-void drawLines(std::size_t first, std::size_t count) {
-    if (count > 0) glDrawArrays(GL_LINES, static_cast<GLint>(first), static_cast<GLsizei>(count));
-}
-
 void drawIndexed16(std::size_t first, std::size_t count) {
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_SHORT,
                    reinterpret_cast<const void*>(first * 2));
@@ -88,6 +84,10 @@ void drawIndexed16(std::size_t first, std::size_t count) {
 
 void drawIndexed32(std::size_t count) {
     if (count > 0) glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
+}
+
+void drawIndexedLines32(std::size_t count) {
+    if (count > 0) glDrawElements(GL_LINES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
 }
 
 void dispatch(std::size_t groups) {

@@ -47,11 +47,11 @@ private:
 };
 
 void drawTriangles(std::size_t first, std::size_t count);
-void drawLines(std::size_t first, std::size_t count);
 /// 16-bit indices from the bound index buffer; `first` in indices.
 void drawIndexed16(std::size_t first, std::size_t count);
-/// Triangles of 32-bit indices from the vertex array's index buffer.
+/// Triangles, or lines of one pixel, of 32-bit indices from the vertex array's index buffer.
 void drawIndexed32(std::size_t count);
+void drawIndexedLines32(std::size_t count);
 void dispatch(std::size_t groups);
 /// What compute shaders wrote is seen by the shaders that follow.
 void storageBarrier();
