@@ -134,6 +134,14 @@ private:
     std::size_t m_count = 0;
 };
 
+BenchRow failed(const Error& error) {
+    BenchRow row;
+    row.name = "draw";
+    row.correct = false;
+    row.note = error.message;
+    return row;
+}
+
 double meanLight(const Picture& picture) {
     double sum = 0;
     for (const std::uint8_t value : picture.pixels) sum += value;
@@ -144,7 +152,7 @@ void benchFrames(std::vector<BenchRow>& rows, const Groom& groom, const std::sha
                  const std::shared_ptr<const Strands>& strands) {
     Result<OffscreenRenderer> offscreen = OffscreenRenderer::create();
     if (!offscreen) {
-        rows.push_back({.name = "draw", .correct = false, .note = offscreen.error().message});
+        rows.push_back(failed(offscreen.error()));
         return;
     }
     Renderer& renderer = offscreen->renderer();
@@ -152,7 +160,7 @@ void benchFrames(std::vector<BenchRow>& rows, const Groom& groom, const std::sha
     renderer.setStrands(strands);
     Result<PlainLines> lines = PlainLines::create(*strands);
     if (!lines) {
-        rows.push_back({.name = "draw", .correct = false, .note = lines.error().message});
+        rows.push_back(failed(lines.error()));
         return;
     }
     Bounds bounds = surface->bounds;

@@ -40,7 +40,7 @@ vec3 strandLight(vec3 tangent, vec3 normal, vec3 toEye, vec3 toLight, vec3 albed
     specular += tinted * (0.10 + 0.85 * sqrt(albedo)) * pow(second, p * 0.4) * glints;
     vec3 diffuse = albedo * scene.hair.x * sine(along);
     // Highlights need light and eye on this side of the head.
-    float side = smoothstep(-0.15, 0.55, dot(normal, toLight)); * smoothstep(-0.4, 0.4, dot(normal, toEye));
+    float side = smoothstep(-0.15, 0.55, dot(normal, toLight)) * smoothstep(-0.4, 0.4, dot(normal, toEye));
     return diffuse * wrapped + specular * scene.hair.y * side;
 }
 

@@ -96,14 +96,19 @@ private Q_SLOTS:
         addHair(mat, glm::vec3(0, -0.05f, 0), glm::vec3(0, 0.05f, 0), 1e-6f);
         VoxelShadow shadow;
         shadow.build(mat, m_all, glm::vec3(0, 1, 0));
-        const float below = layersAt(shadow, glm::vec3(0.01f, -0.03f, 0.01f));
+        // Three or four hairs fall into one voxel: the mean over many places counts.
+        float below = 0.0f;
+        for (int i = 0; i < 10000; ++i) {
+            const glm::vec2 place = glm::vec2(i % 100, i / 100) * 0.0008f - 0.04f;
+            below += layersAt(shadow, glm::vec3(place.x, -0.03f, place.y)) * 0.0001f;
+        }
         QVERIFY(layersAt(shadow, glm::vec3(0.01f, 0.03f, 0.01f)) < 0.01f);
         // 400 hairs of 1 mm on 100 mm cover the plane four times: sixteen layers.
-        QVERIFY2(std::abs(below - 16.0f) < 1.6f, qPrintable(QString::number(static_cast<double>(below))));
+        QVERIFY2(std::abs(below - 16.0f) < 0.8f, qPrintable(QString::number(static_cast<double>(below))));
         // The lamp from below: the other way round.
         shadow.build(mat, m_all, glm::vec3(0, -1, 0));
         QVERIFY(layersAt(shadow, glm::vec3(0.01f, -0.03f, 0.01f)) < 0.01f);
-        QVERIFY(layersAt(shadow, glm::vec3(0.01f, 0.03f, 0.01f)) > 14.0f);
+        QVERIFY(layersAt(shadow, glm::vec3(0.01f, 0.03f, 0.01f)) > 10.0f);
     }
 
     void everySecondHairTwiceAsWideIsTheSameOnTheWhole() {
