@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "editor/cli/bench.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace whorl {
+
+std::vector<BenchRow> benchComb();
+
+std::span<const Bench> benches() {
+    static const std::array list{
+        Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
+    };
+    return list;
+}
+
+Medians interleaved(const std::function<void()>& ours, const std::function<void()>& baseline, int runs) {
+    const auto seconds = [](const std::function<void()>& work) {
+        if (!work) return 0.0;
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    seconds(ours);
+    seconds(baseline);
+    std::vector<double> oursTimes, baselineTimes;
+    for (int i = 0; i < std::max(runs, 7); ++i) {
+        oursTimes.push_back(seconds(ours));
+        baselineTimes.push_back(seconds(baseline));
+    }
+    const auto median = [](std::vector<double>& times) {
+        std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+        return times[times.size() / 2];
+    };
+    return {median(oursTimes), median(baselineTimes)};
+}
+
+}  // namespace whorl

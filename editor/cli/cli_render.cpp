@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/hair/generate.h"
+#include "core/io/image.h"
+#include "editor/cli/cli.h"
+#include "render/offscreen.h"
+
+namespace whorl::cli {
+namespace {
+
+struct Options {
+    std::string file;
+    std::string output;
+    std::string size = "1280x720";
+    std::string view = "hair";
+    std::string shading = "kajiya-kay";
+    std::string shadows = "voxel";
+    std::string camera = "front";
+    std::string map;
+    std::optional<std::uint32_t> count;
+};
+
+Outcome render(const Options& options) {
+    const std::size_t cross = options.size.find('x');
+    const auto width = wholeNumber(options.size.substr(0, cross), 1, 8192);
+    const auto height =
+        cross == std::string::npos ? std::nullopt : wholeNumber(options.size.substr(cross + 1), 1, 8192);
+    if (!width || !height)
+        return badUsage("--size: write WIDTHxHEIGHT, each from 1 to 8192, not \"" + options.size + "\".");
+    const glm::vec2 viewport(static_cast<float>(*width), static_cast<float>(*height));
+    // A wrong camera is refused before anything slow happens.
+    if (auto named = Camera::named(options.camera, {{-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}}, viewport); !named) {
+        return badUsage("--camera: " + named.error().message);
+    }
+
+    auto groom = openWithGuides(options.file);
+    if (!groom) return badInput(groom.error());
+    if (!options.map.empty() && groom->maps.find(options.map) == nullptr) {
+        return badInput({options.file + ": there is no map \"" + options.map + "\" to show."});
+    }
+    const auto surface = std::make_shared<const Surface>(groom->mesh);
+    ViewSettings settings;
+    settings.shadows = options.shadows == "none" ? ShadowMode::None : ShadowMode::Voxel;
+    settings.showHair = options.view == "hair";
+    settings.showGuides = options.view == "guides";
+    settings.overlayMap = options.map;
+
+    Bounds bounds = surface->bounds;
+    std::shared_ptr<Strands> strands;
+    if (settings.showHair) {
+        Generator generator;
+        generator.setSurface(surface);
+        GenerateOptions generateOptions;
+        generateOptions.hairCount = options.count;
+        auto made = generator.generate(*groom, generateOptions, progress());
+        if (!made) return badInput(made.error());
+        strands = std::make_shared<Strands>(std::move(*made));
+        if (strands->count() > 0) bounds.add(strands->bounds());
+    } else {
+        for (std::size_t i = 0; i < groom->guides.count(); ++i) {
+            for (const glm::vec3& p : groom->guides.points(i)) bounds.add(p);
+        }
+    }
+    const auto camera = Camera::named(options.camera, bounds, viewport);
+    if (!camera) return badUsage("--camera: " + camera.error().message);
+    auto renderer = OffscreenRenderer::create();
+    if (!renderer) return badInput(renderer.error());
+    renderer->renderer().setGroom(*groom, surface);
+    renderer->renderer().setStrands(strands);
+    const Picture picture = renderer->draw(*camera, settings, {}, static_cast<int>(*width), static_cast<int>(*height));
+    if (picture.pixels.empty())
+        return badInput({"The picture could not be drawn; is it too large for the graphics card?"});
+    if (auto written = writePixels(picture.pixels, picture.width, picture.height, 4, options.output); !written) {
+        return badInput(written.error());
+    }
+    return done();
+}
+
+}  // namespace
+
+void addRender(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* program =
+        addProgram(app, "render", "Draws a picture; needs no display", [options] { return render(*options); });
+    program->add_option("FILE", options->file, "Mesh, .whorl or .groom")->required();
+    program->add_option("-o,--output", options->output, "Image to write: png, jpg, tif, exr or tga")->required();
+    program->add_option("--size", options->size, "WIDTHxHEIGHT in pixels; 1280x720 without it");
+    program->add_option("--view", options->view, "hair or guides")->check(CLI::IsMember({"hair", "guides"}));
+    program->add_option("--shading", options->shading, "kajiya-kay")->check(CLI::IsMember({"kajiya-kay"}));
+    program->add_option("--shadows", options->shadows, "none or voxel")->check(CLI::IsMember({"none", "voxel"}));
+    program->add_option("--camera", options->camera,
+                        "front, back, left, right, side, top, three-quarter or AZIMUTH,ELEVATION in degrees");
+    program->add_option("--map", options->map, "Map to show in colour over the mesh");
+    program->add_option("--count", options->count, "Hairs instead of the groom's number")
+        ->check(CLI::Range(0u, 10000000u));
+}
+
+}  // namespace whorl::cli
