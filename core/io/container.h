@@ -67,6 +67,8 @@ public:
                                   const std::string& name);
 
     std::uint32_t version() const { return m_version; }
+    std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(m_pieces.size()); }
+    std::uint64_t rawBytes(std::uint32_t piece) const { return m_pieces[piece].raw; }
     Result<std::string> manifest();
 
     struct Request {

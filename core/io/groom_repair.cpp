@@ -28,6 +28,14 @@ bool repairRoot(SurfacePoint& root) {
     return true;
 }
 
+/// Puts points that are not finite onto the ones before them, the first onto `start`. True when there were any.
+bool makeFinite(std::vector<glm::vec3>& points, glm::vec3 start) {
+    if (std::all_of(points.begin(), points.end(), finite)) return false;
+    glm::vec3 last = finite(start) ? start : glm::vec3(0.0f);
+    for (glm::vec3& point : points) last = point = finite(point) ? point : last;
+    return true;
+}
+
 }  // namespace
 
 Result<void> repairMesh(SurfaceMesh& mesh, std::vector<PartSettings>& settings, Problems& problems) {
@@ -129,14 +137,12 @@ GuideSet repairedGuides(const StoredGuides& stored, const SurfaceMesh& mesh, con
             ids.insert(id);
             ++renumbered;
         }
-        if (!std::all_of(points.begin(), points.end(), finite)) {
-            glm::vec3 last = positionAt(mesh, root);
-            for (glm::vec3& point : points) last = point = finite(point) ? point : last;
-            ++straightened;
-        }
+        straightened += makeFinite(points, positionAt(mesh, root));
         const int segments = groups[group].params.general.segments;
         if (points.size() != static_cast<std::size_t>(segments) + 1) {
+            const glm::vec3 first = points.front();
             points = resampled(points, segments);
+            makeFinite(points, first);  // lengths of absurd but finite guides overflow
             ++resampledCount;
         }
         guides.appendWithId(id, root, group, points);
