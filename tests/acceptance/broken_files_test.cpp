@@ -6,6 +6,8 @@
 #include <QtTest>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <set>
 #include <sstream>
 
 using whorl::testing::realData;
