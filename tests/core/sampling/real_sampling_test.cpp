@@ -16,7 +16,7 @@
 using namespace whorl;
 using testing::Paint;
 
-class RealMeshesTest : public QObject {
+class RealSamplingTest : public QObject {
     Q_OBJECT
 
     static void addMeshes() {
@@ -144,5 +144,5 @@ private Q_SLOTS:
     }
 };
 
-QTEST_APPLESS_MAIN(RealMeshesTest)
-#include "real_meshes_test.moc"
+QTEST_APPLESS_MAIN(RealSamplingTest)
+#include "real_sampling_test.moc"
