@@ -2,6 +2,7 @@
 #include "core/surface/band_search.h"
 
 #include "core/base/parallel.h"
+#include "core/surface/disc_ranges.kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,37 +15,42 @@ namespace {
 // Cells of this many nodes a side are the pieces of parallel work, those of `leafSize` are searched node by node.
 constexpr int taskSize = 32;
 constexpr int leafSize = 2;
-using List = std::vector<std::uint32_t>;
+// Triangles, each in a disc around it, relative to the origin of the grid; in separate arrays, so that many are looked
+// at in one go. A triangle without area has no normal; then the disc is a ball.
+struct Candidates {
+    std::vector<std::uint32_t> triangles;
+    std::vector<float> values[7];  // x, y, z, radius, normal x, y, z
 
-// A disc around a triangle, relative to the origin of the grid. A triangle without area has no normal; then a ball.
-struct Disc {
-    float x, y, z, radius;
-    float nx, ny, nz;
+    std::size_t count() const { return triangles.size(); }
+    bool empty() const { return triangles.empty(); }
+    float radius(std::size_t i) const { return values[3][i]; }
+    DiscArrays discs() const {
+        return {values[0].data(), values[1].data(), values[2].data(), values[3].data(),
+                values[4].data(), values[5].data(), values[6].data()};
+    }
+    void resize(std::size_t count) {
+        triangles.resize(count);
+        for (std::vector<float>& each : values) each.resize(count);
+    }
+    void copy(std::size_t to, const Candidates& from, std::size_t i) {
+        triangles[to] = from.triangles[i];
+        for (int k = 0; k < 7; ++k) values[k][to] = from.values[k][i];
+    }
 };
 
-// Between which two distances from a point a disc lies.
-struct Range {
-    float low;
-    float high;
-};
+// Squared distances of the candidates.
+struct Ranges {
+    std::vector<float> low;
+    std::vector<float> high;
 
-// Nothing when the disc is farther than `reach`.
-inline bool rangeOf(const Disc& disc, float x, float y, float z, float reach, Range& range) {
-    const float dx = disc.x - x;
-    const float dy = disc.y - y;
-    const float dz = disc.z - z;
-    const float squared = dx * dx + dy * dy + dz * dz;
-    if (squared > (disc.radius + reach) * (disc.radius + reach)) return false;
-    const float height = dx * disc.nx + dy * disc.ny + dz * disc.nz;
-    const float beside = std::sqrt(std::max(squared - height * height, 0.0f));
-    const float inner = std::max(beside - disc.radius, 0.0f);
-    const float outer = beside + disc.radius;
-    range.low = height * height + inner * inner;
-    if (range.low > reach * reach) return false;
-    range.low = std::sqrt(range.low);
-    range.high = std::sqrt(height * height + outer * outer);
-    return true;
-}
+    void measure(const Candidates& candidates, float x, float y, float z) {
+        if (low.size() < candidates.count()) {
+            low.resize(candidates.count());
+            high.resize(candidates.count());
+        }
+        WHORL_PICK(discRanges)(candidates.discs(), candidates.count(), x, y, z, low.data(), high.data());
+    }
+};
 
 struct Cell {
     int first[3];
@@ -53,7 +59,7 @@ struct Cell {
 
 struct Task {
     Cell cell;
-    List candidates;
+    Candidates candidates;
 };
 
 class BandSearch {
@@ -62,7 +68,8 @@ public:
                const std::function<void(const NodeHit&)>& visit)
         : m_mesh(mesh), m_grid(grid), m_band(band), m_visit(visit), m_slack(1e-3f * grid.spacing) {
         const Vec3d origin(grid.origin);
-        m_discs.reserve(mesh.triangles.size());
+        m_all.resize(mesh.triangles.size());
+        std::uint32_t count = 0;
         for (const glm::uvec3& t : mesh.triangles) {
             const Vec3d a = Vec3d(mesh.positions[t.x]) - origin;
             const Vec3d b = Vec3d(mesh.positions[t.y]) - origin;
@@ -74,18 +81,24 @@ public:
             // The normal of a sliver can be far off; then the disc would not hold the triangle.
             const bool sound = area > 1e-5 * radius * radius;
             const glm::vec3 normal = sound ? glm::vec3(across / area) : glm::vec3(0.0f);
-            m_discs.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z),
-                               static_cast<float>(radius), normal.x, normal.y, normal.z});
+            m_all.triangles[count] = count;
+            const float values[7] = {static_cast<float>(centre.x),
+                                     static_cast<float>(centre.y),
+                                     static_cast<float>(centre.z),
+                                     static_cast<float>(radius),
+                                     normal.x,
+                                     normal.y,
+                                     normal.z};
+            for (int k = 0; k < 7; ++k) m_all.values[k][count] = values[k];
+            ++count;
         }
     }
 
     void run() {
         int size = taskSize;
         while (size < std::max({m_grid.size[0], m_grid.size[1], m_grid.size[2]})) size *= 2;
-        List all(m_discs.size());
-        for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
         std::vector<Task> tasks;
-        split({{0, 0, 0}, size}, all, tasks);
+        split({{0, 0, 0}, size}, m_all, tasks);
         parallelFor(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 Scratch scratch;
@@ -108,39 +121,39 @@ private:
         }
     }
 
-    void split(const Cell& cell, const List& candidates, std::vector<Task>& tasks) const {
+    void split(const Cell& cell, const Candidates& candidates, std::vector<Task>& tasks) const {
         if (cell.size == taskSize) {
             tasks.push_back({cell, candidates});
             return;
         }
-        List kept;
-        std::vector<float> scratch;
+        Candidates kept;
+        Ranges ranges;
         forChildren(cell, [&](const Cell& child) {
-            filter(child, candidates, kept, scratch);
+            filter(child, candidates, kept, ranges);
             if (!kept.empty()) split(child, kept, tasks);
         });
     }
 
     struct Scratch {
-        std::vector<List> lists = std::vector<List>(8);  // one a level
-        std::vector<float> nearest;
+        Candidates kept[8];  // one a level
+        Ranges ranges;
     };
 
-    void search(const Cell& cell, const List& candidates, Scratch& scratch, std::size_t level) const {
+    void search(const Cell& cell, const Candidates& candidates, Scratch& scratch, std::size_t level) const {
         if (cell.size == leafSize) {
-            searchNodes(cell, candidates);
+            searchNodes(cell, candidates, scratch.ranges);
             return;
         }
         forChildren(cell, [&](const Cell& child) {
-            List& kept = scratch.lists[level];
-            filter(child, candidates, kept, scratch.nearest);
+            Candidates& kept = scratch.kept[level];
+            filter(child, candidates, kept, scratch.ranges);
             if (!kept.empty()) search(child, kept, scratch, level + 1);
         });
     }
 
     // Keeps the triangles that can be nearest to a node of the cell: with c its centre and h its half diagonal, the
     // nearest one of a node is within d(c) + h of it, so within d(c) + 2 h of c.
-    void filter(const Cell& cell, const List& candidates, List& kept, std::vector<float>& scratch) const {
+    void filter(const Cell& cell, const Candidates& candidates, Candidates& kept, Ranges& ranges) const {
         const float half = 0.5f * static_cast<float>(cell.size - 1) * m_grid.spacing;
         const float halfDiagonal = half * 1.7320509f;
         const float x = static_cast<float>(cell.first[0]) * m_grid.spacing + half;
@@ -148,63 +161,65 @@ private:
         const float z = static_cast<float>(cell.first[2]) * m_grid.spacing + half;
         const Vec3d centre =
             Vec3d(m_grid.origin) + Vec3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
-        float reach = m_band + halfDiagonal + m_slack;
-        const float large = 2.0f * halfDiagonal;
-        std::vector<float>& nearest = scratch;
-        nearest.clear();
-        kept.clear();
-        for (const std::uint32_t t : candidates) {
-            Range range{};
-            if (!rangeOf(m_discs[t], x, y, z, reach, range)) continue;
-            // The disc of a triangle that is large beside the cell says little.
-            if (m_discs[t].radius > large) {
-                range.low = static_cast<float>(std::sqrt(closest(t, centre).distanceSquared));
-                range.high = range.low;
-                if (range.low > reach) continue;
-            }
-            reach = std::min(reach, range.high + 2.0f * halfDiagonal + m_slack);
-            kept.push_back(t);
-            nearest.push_back(range.low);
+        ranges.measure(candidates, x, y, z);
+        const std::size_t count = candidates.count();
+        const float limit = m_band + halfDiagonal + m_slack;
+        float least = limit * limit;  // squared distance of the nearest triangle, or more
+        for (std::size_t i = 0; i < count; ++i) least = std::min(least, ranges.high[i]);
+        const auto reachOf = [&](float squared) {
+            const float reach = std::min(limit, std::sqrt(squared) + 2.0f * halfDiagonal + m_slack);
+            return reach * reach;
+        };
+        // The disc of a triangle that is large beside the cell says little; measure the triangle.
+        for (std::size_t i = 0; i < count; ++i) {
+            if (candidates.radius(i) <= 2.0f * halfDiagonal || ranges.low[i] > reachOf(least)) continue;
+            ranges.low[i] = static_cast<float>(closest(candidates.triangles[i], centre).distanceSquared);
+            least = std::min(least, ranges.low[i]);
         }
-        // The first ones were kept while the reach was still long.
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < kept.size(); ++i) {
-            kept[count] = kept[i];
-            count += nearest[i] <= reach ? 1 : 0;
-        }
+        const float reach = reachOf(least);
         kept.resize(count);
+        std::size_t keptCount = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (ranges.low[i] <= reach) kept.copy(keptCount++, candidates, i);
+        }
+        kept.resize(keptCount);
     }
 
-    void searchNodes(const Cell& cell, const List& candidates) const {
-        std::uint32_t guess = candidates.front();
+    void searchNodes(const Cell& cell, const Candidates& candidates, Ranges& ranges) const {
+        std::uint32_t guess = candidates.triangles.front();
         for (int z = cell.first[2]; z < std::min(cell.first[2] + leafSize, m_grid.size[2]); ++z) {
             for (int y = cell.first[1]; y < std::min(cell.first[1] + leafSize, m_grid.size[1]); ++y) {
                 for (int x = cell.first[0]; x < std::min(cell.first[0] + leafSize, m_grid.size[0]); ++x)
-                    guess = searchNode(x, y, z, guess, candidates);
+                    guess = searchNode(x, y, z, guess, candidates, ranges);
             }
         }
     }
 
     // Starts with `guess`, which is near, so that most others are ruled out by their discs. Gives the nearest.
-    std::uint32_t searchNode(int x, int y, int z, std::uint32_t guess, const List& candidates) const {
+    std::uint32_t searchNode(int x, int y, int z, std::uint32_t guess, const Candidates& candidates,
+                             Ranges& ranges) const {
         const Vec3d p = m_grid.node(x, y, z);
-        const float px = static_cast<float>(x) * m_grid.spacing;
-        const float py = static_cast<float>(y) * m_grid.spacing;
-        const float pz = static_cast<float>(z) * m_grid.spacing;
+        ranges.measure(candidates, static_cast<float>(x) * m_grid.spacing, static_cast<float>(y) * m_grid.spacing,
+                       static_cast<float>(z) * m_grid.spacing);
         ClosestPoint best = closest(guess, p);
         std::uint32_t triangle = guess;
         auto bestSquared = static_cast<float>(best.distanceSquared);
-        float limit = std::sqrt(bestSquared) + m_slack;
-        for (const std::uint32_t t : candidates) {
-            Range range{};
-            if (t == guess || !rangeOf(m_discs[t], px, py, pz, limit, range)) continue;
+        const auto reachOf = [&](float squared) {
+            const float reach = std::sqrt(squared) + m_slack;
+            return reach * reach;
+        };
+        float reach = reachOf(bestSquared);
+        for (std::size_t i = 0; i < candidates.count(); ++i) {
+            if (ranges.low[i] > reach) continue;
+            const std::uint32_t t = candidates.triangles[i];
+            if (t == guess) continue;
             const ClosestPoint place = closest(t, p);
             const auto squared = static_cast<float>(place.distanceSquared);
             if (squared < bestSquared || (squared == bestSquared && t < triangle)) {
                 best = place;
                 triangle = t;
                 bestSquared = squared;
-                limit = std::sqrt(squared) + m_slack;
+                reach = reachOf(squared);
             }
         }
         const auto distance = static_cast<float>(std::sqrt(best.distanceSquared));
@@ -228,7 +243,7 @@ private:
     float m_band;
     const std::function<void(const NodeHit&)>& m_visit;
     float m_slack;  // more than rounding can be
-    std::vector<Disc> m_discs;
+    Candidates m_all;
 };
 
 }  // namespace

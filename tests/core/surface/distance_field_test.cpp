@@ -3,6 +3,8 @@
 
 #include "core/base/parallel.h"
 #include "core/base/random.h"
+#include "core/base/simd.h"
+#include "core/surface/band_search.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -101,6 +103,45 @@ private Q_SLOTS:
             negative += inside ? 1 : 0;
         }
         QVERIFY(negative > 300);
+    }
+
+    void bandEqualsOneQueryANode() {
+        // Slivers, specks and triangles as large as the grid, at every vector width.
+        SurfaceMesh mesh;
+        for (std::uint64_t i = 0; i < 300; ++i) {
+            const glm::vec3 a = randomPoint(11, i, 1.0f);
+            const float size = std::pow(10.0f, -3.0f * randomFloat(12, i, 0));
+            const glm::vec3 b = a + randomPoint(13, i, 2.0f * size);
+            const glm::vec3 c = i % 3 == 0 ? a + 0.3f * (b - a) + randomPoint(14, i, 1e-4f * size)
+                                           : a + randomPoint(15, i, 2.0f * size);
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::vec3& p : {a, b, i % 31 == 0 ? b : c}) mesh.positions.push_back(p);
+            mesh.triangles.emplace_back(first, first + 1, first + 2);
+        }
+        const SurfaceQuery query{SurfaceMesh(mesh)};
+        const NodeGrid grid{glm::vec3(-0.8f), 1.6f / 44.0f, {45, 43, 41}};
+        const float band = 6.0f * grid.spacing;
+        const SimdLevel best = simdLevel();
+        for (const SimdLevel level : {SimdLevel::Plain, SimdLevel::Avx2, SimdLevel::Avx512}) {
+            setSimdLevel(level);
+            std::vector<NodeHit> hits(grid.count(), NodeHit{0, {}, {~0u, 0.0f, 0.0f}, 0.0f});
+            searchBand(mesh, grid, band, [&](const NodeHit& hit) { hits[hit.index] = hit; });
+            for (int z = 0; z < grid.size[2]; ++z) {
+                for (int y = 0; y < grid.size[1]; ++y) {
+                    for (int x = 0; x < grid.size[0]; ++x) {
+                        const NodeHit& found = hits[grid.index(x, y, z)];
+                        const auto expected = query.nearest(glm::vec3(grid.node(x, y, z)));
+                        if (found.nearest.triangle == ~0u) {
+                            QVERIFY(expected->distance > band * 0.9999f);
+                        } else {
+                            QVERIFY(std::abs(expected->distance - found.distance) < 1e-6f);
+                            QCOMPARE(found.index, grid.index(x, y, z));
+                        }
+                    }
+                }
+            }
+        }
+        setSimdLevel(best);
     }
 
     void sameForAnyNumberOfThreads() {
