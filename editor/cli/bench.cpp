@@ -8,10 +8,12 @@
 namespace whorl {
 
 std::vector<BenchRow> benchComb();
+std::vector<BenchRow> benchSampler();
 
 std::span<const Bench> benches() {
     static const std::array list{
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
+        Bench{"sampler", "Random roots, against bisection and rejection", benchSampler},
     };
     return list;
 }
