@@ -4,7 +4,6 @@
 #include "core/base/parallel.h"
 #include "core/base/polynomials.h"
 #include "core/hair/curve.h"
-#include "core/hair/outside.h"
 #include "core/hair/shape.kernel.h"
 
 #include <algorithm>
@@ -99,7 +98,7 @@ private:
         const std::size_t row = lane * group.stride;
         m_points.resize(full);
         for (std::size_t v = 0; v < full; ++v) m_points[v] = {m_x[row + v], m_y[row + v], m_z[row + v]};
-        if (group.keepOutside && m_sources.skin) whorl::keepOutside(*m_sources.skin, m_points, group.ease);
+        if (group.keepOutside && m_sources.skin) m_sources.skin->keepOutside(m_points, group.ease);
         const std::size_t first = m_strands.firstVertex[strand];
         const std::size_t vertices = m_strands.firstVertex[strand + 1] - first;
         const CutEnd end = cutEnd(m_sources.traits[m_grown[strand]].cut, group.segments);

@@ -4,9 +4,9 @@
 
 #include "core/hair/bindings.h"
 #include "core/hair/guide_shapes.h"
+#include "core/hair/outside.h"
 #include "core/hair/strands.h"
 #include "core/hair/traits.h"
-#include "core/surface/distance_field.h"
 
 #include <cstdint>
 #include <span>
@@ -22,7 +22,7 @@ struct HairSources {
     const std::vector<HairTraits>& traits;
     const GuideShapes& shapes;
     glm::vec3 kinkOffset;
-    const DistanceField* skin;  ///< null: nothing keeps outside
+    const SkinGuard* skin;  ///< null: nothing keeps outside
 };
 
 /// Traits of all roots (some left unset when cancelled).

@@ -48,6 +48,7 @@ struct Generator::State {
     Groom groom;         // of the last call that ended well
     bool valid = false;  // groom, sampler, index and shapes belong together
     std::shared_ptr<const Surface> surface;
+    std::optional<SkinGuard> guard;  // of the surface
     SubTriangleSampler sampler;
     GuideIndex index;
     GuideShapes shapes;
@@ -65,7 +66,7 @@ struct Generator::State {
     std::vector<std::uint8_t> changedBlocks;
 
     Result<void> prepare(const Groom& next, Progress& progress);
-    const DistanceField* skin();
+    const SkinGuard* skin();
     HairSources sourcesOf(const Batch& made, const TraitLookup& lookup);
     std::uint32_t hairCount(const GenerateOptions& options) const;
 
@@ -99,18 +100,22 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     if (shapesRebuilt) shapes = GuideShapes(next);
     for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
         if (changedBlocks[b]) shapes.update(next, b);
-    if (surface && !surface->shared.sameAs(next.mesh)) surface.reset();
+    if (surface && !surface->shared.sameAs(next.mesh)) {
+        surface.reset();
+        guard.reset();
+    }
     groom = next;
     valid = true;
     return {};
 }
 
-const DistanceField* Generator::State::skin() {
+const SkinGuard* Generator::State::skin() {
     const bool wanted = std::any_of(groom.groups->begin(), groom.groups->end(),
                                     [](const Group& group) { return group.params.general.keepOutside; });
     if (!wanted) return nullptr;
     if (!surface) surface = std::make_shared<Surface>(groom.mesh);
-    return &surface->skin();
+    if (!guard || &guard->surface() != surface.get()) guard.emplace(surface);
+    return &*guard;
 }
 
 HairSources Generator::State::sourcesOf(const Batch& made, const TraitLookup& lookup) {

@@ -2,22 +2,44 @@
 // Keeps hair out of the head.
 #pragma once
 
-#include "core/surface/distance_field.h"
+#include "core/surface/surface.h"
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace whorl {
 
-/// Distance that hair keeps from the skin once it has left its root: a part of the distance field's spacing, which is
-/// about what the field can be wrong by.
-float skinClearance(const DistanceField& skin);
+/// The skin of a surface, with a coarse grid of where it is certainly far away. Immutable once made; any thread may
+/// ask.
+class SkinGuard {
+public:
+    explicit SkinGuard(std::shared_ptr<const Surface> surface);
 
-/// Moves vertices that are inside the skin, or nearer than the clearance, outwards. `ease` (one a vertex, 0 at the
-/// root, growing to 1) scales the clearance, so that hair leaves its root without a step. Vertices farther than twice
-/// the clearance stay where they are, those between are eased over; the first vertex never moves. A hair that dives
-/// deeper than the field reaches is laid along the skin instead, and goes on from there in its own directions.
-void keepOutside(const DistanceField& skin, std::span<glm::vec3> points, std::span<const float> ease);
+    const Surface& surface() const { return *m_surface; }
+    /// Distance that hair keeps from the skin once it has left its root: a part of the distance field's spacing, which
+    /// is about what the field can be wrong by.
+    float clearance() const { return m_clearance; }
+
+    /// Moves vertices that are inside the skin, or nearer than the clearance, outwards. `ease` (one a vertex, 0 at the
+    /// root, growing to 1) scales the clearance, so that hair leaves its root without a step. Vertices farther than
+    /// twice the clearance stay where they are, those between are eased over; the first vertex never moves. A hair that
+    /// dives deeper than the field reaches is laid along the skin instead, and goes on from there in its own
+    /// directions.
+    void keepOutside(std::span<glm::vec3> points, std::span<const float> ease) const;
+
+private:
+    bool certainlyFar(const glm::vec3& p) const;
+
+    std::shared_ptr<const Surface> m_surface;
+    float m_clearance = 0.0f;
+    glm::vec3 m_origin{0.0f};
+    float m_cellsPerMetre = 1.0f;
+    int m_size[3] = {0, 0, 0};
+    std::vector<std::uint8_t> m_far;
+};
 
 }  // namespace whorl

@@ -16,14 +16,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace whorl {
 namespace {
 
 // The curve of a hair before cutting.
 std::vector<glm::vec3> referenceCurve(const Groom& groom, const GuideIndex& index, const HairRoot& root,
-                                      const HairTraits& traits, const glm::vec3& kinkOffset,
-                                      const DistanceField* skin) {
+                                      const HairTraits& traits, const glm::vec3& kinkOffset, const SkinGuard* skin) {
     const GeneralParams& general = (*groom.groups)[root.group].params.general;
     std::array<Neighbour, GuideIndex::maxNeighbours> neighbours;
     const std::size_t count = index.nearest(root.group, root.position, root.normal, general.samples, neighbours);
@@ -56,7 +56,7 @@ std::vector<glm::vec3> referenceCurve(const Groom& groom, const GuideIndex& inde
         curve[v] += ease[v] * (glm::mix(traits.frizzRoot, traits.frizzTip, along) * frizz +
                                glm::mix(traits.kinkRoot, traits.kinkTip, along) * kink);
     }
-    if (general.keepOutside && skin) keepOutside(*skin, curve, ease);
+    if (general.keepOutside && skin) skin->keepOutside(curve, ease);
     return curve;
 }
 
@@ -113,8 +113,8 @@ std::vector<glm::vec3> referenceNormals(std::span<const glm::vec3> points, const
     return normals;
 }
 
-Result<Strands> generateReference(const Groom& groom, const Surface& surface, const GenerateOptions& options,
-                                  Progress& progress) {
+Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surface> surface,
+                                  const GenerateOptions& options, Progress& progress) {
     const DensityLookup density(groom);
     const Result<SubTriangleSampler> sampler =
         SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
@@ -125,7 +125,8 @@ Result<Strands> generateReference(const Groom& groom, const Surface& surface, co
     const TraitLookup lookup(groom);
     const bool outside = std::any_of(groom.groups->begin(), groom.groups->end(),
                                      [](const Group& group) { return group.params.general.keepOutside; });
-    const DistanceField* skin = outside ? &surface.skin() : nullptr;
+    const std::optional<SkinGuard> guard = outside ? std::optional<SkinGuard>(std::move(surface)) : std::nullopt;
+    const SkinGuard* skin = guard ? &*guard : nullptr;
 
     const auto count = options.hairCount.value_or(static_cast<std::uint32_t>(groom.counts->hairs));
     const HairRange range = partRange(count, options.part, options.partCount);

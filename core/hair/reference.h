@@ -8,8 +8,8 @@
 namespace whorl {
 
 /// The same hair as Generator::generate, up to rounding, on one thread. `surface` is that of the groom's mesh.
-Result<Strands> generateReference(const Groom& groom, const Surface& surface, const GenerateOptions& options,
-                                  Progress& progress);
+Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surface> surface,
+                                  const GenerateOptions& options, Progress& progress);
 
 /// Normals of a strand by double reflection (Wang et al. 2008, "Computation of Rotation Minimizing Frames"), one a
 /// vertex. The first is the part of the skin's normal across the hair, or an axis where the hair stands upright.

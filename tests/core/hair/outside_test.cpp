@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/outside.h"
 
+#include "core/base/random.h"
 #include "core/hair/generate.h"
+#include "core/io/mesh_import.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -58,8 +60,26 @@ private Q_SLOTS:
         QVERIFY(inside(free, surface->skin(), 1e-5f) > 10000);
     }
 
+    void noVertexOfAHeadIsInside() {
+        const auto file = testing::realData("heads/makehuman_derived/head_neutral_sub1.glb");
+        if (!file) QSKIP("The real heads are not here.");
+        Progress progress;
+        Result<ImportedMesh> imported = importMesh(*file, progress);
+        QVERIFY(imported);
+        Groom groom = testing::groomOn(imported->mesh, 300, 15, 0.12f);
+        bowInwards(groom, boundsOf(*groom.mesh).centre());
+        const auto surface = std::make_shared<const Surface>(groom.mesh);
+        Generator generator;
+        generator.setSurface(surface);
+        const Strands kept = *generator.generate(groom, {5000u}, progress);
+        const std::size_t wrong = inside(kept, surface->skin(), 2e-4f);
+        QVERIFY2(wrong * 2000 < kept.vertexCount(),
+                 qPrintable(QString("%1 of %2 vertices inside").arg(wrong).arg(kept.vertexCount())));
+    }
+
     void hairOutsideStaysAndRootsNeverMove() {
-        const DistanceField& skin = sphereSurface()->skin();
+        const SkinGuard guard(sphereSurface());
+        const DistanceField& skin = guard.surface().skin();
         std::vector<glm::vec3> points;
         std::vector<float> ease;
         for (int v = 0; v < 8; ++v) {
@@ -67,41 +87,60 @@ private Q_SLOTS:
             ease.push_back(std::min(1.0f, 0.3f * static_cast<float>(v)));
         }
         std::vector<glm::vec3> moved = points;
-        keepOutside(skin, moved, ease);
+        guard.keepOutside(moved, ease);
         QCOMPARE(moved, points);
         points[0] = {0.05f, 0.0f, 0.0f};
         moved = points;
-        keepOutside(skin, moved, ease);
+        guard.keepOutside(moved, ease);
         QCOMPARE(moved[0], points[0]);
     }
 
     // Moving a vertex towards and through the skin moves the result without a step (a fifth of a millimetre: the
     // facets of the mesh turn the way out).
     void isContinuous() {
-        const Surface surface{Cow<SurfaceMesh>(testing::sphere(48, 96))};
-        const DistanceField& skin = surface.skin();
+        const SkinGuard guard(std::make_shared<const Surface>(Cow<SurfaceMesh>(testing::sphere(48, 96))));
+        const DistanceField& skin = guard.surface().skin();
         const std::vector<float> ease{0.0f, 1.0f};
         glm::vec3 before(0.0f);
         for (int step = 0; step < 2000; ++step) {
             const float height = 0.103f - 2.5e-6f * static_cast<float>(step);
             std::vector<glm::vec3> points{{0.1f, 0, 0}, glm::vec3(0.8f, 0.6f, 0.0f) * height};
-            keepOutside(skin, points, ease);
+            guard.keepOutside(points, ease);
             if (step > 0) QVERIFY(glm::distance(points[1], before) < 2e-4f);
-            QVERIFY(skin.distance(points[1]) > 0.9f * skinClearance(skin));
+            QVERIFY(skin.distance(points[1]) > 0.9f * guard.clearance());
             before = points[1];
         }
     }
 
+    // The coarse grid never hides a vertex that the field would move.
+    void farFromTheSkinNothingWouldMove() {
+        const SkinGuard guard(sphereSurface());
+        const DistanceField& skin = guard.surface().skin();
+        std::size_t moved = 0;
+        for (std::uint64_t i = 0; i < 200000; ++i) {
+            const glm::vec3 p(0.26f * randomFloat(1, i, 0) - 0.13f, 0.26f * randomFloat(1, i, 1) - 0.13f,
+                              0.26f * randomFloat(1, i, 2) - 0.13f);
+            std::vector<glm::vec3> points{glm::normalize(p) * 0.1f, p};
+            guard.keepOutside(points, std::vector<float>{0.0f, 1.0f});
+            if (points[1] == p)
+                QVERIFY(skin.distance(p) >= 1.9f * guard.clearance());
+            else
+                ++moved;
+        }
+        QVERIFY(moved > 10000);
+    }
+
     // A hair through the whole head is laid around it instead of showing again on the other side.
     void aHairThroughTheHeadGoesAround() {
-        const DistanceField& skin = sphereSurface()->skin();
+        const SkinGuard guard(sphereSurface());
+        const DistanceField& skin = guard.surface().skin();
         std::vector<glm::vec3> points;
         std::vector<float> ease;
         for (int v = 0; v <= 30; ++v) {
             points.emplace_back(0.09f - 0.01f * static_cast<float>(v), 0.0436f, 0.0f);
             ease.push_back(std::min(1.0f, 0.2f * static_cast<float>(v)));
         }
-        keepOutside(skin, points, ease);
+        guard.keepOutside(points, ease);
         for (std::size_t v = 1; v < points.size(); ++v) {
             QVERIFY(skin.distance(points[v]) > -1e-5f);
             QVERIFY(glm::distance(points[v], points[v - 1]) < 0.02f);
