@@ -33,6 +33,8 @@ public:
 
 private:
     bool certainlyFar(const glm::vec3& p) const;
+    float distance(const glm::vec3& p) const;
+    bool dives(const glm::vec3& from, float distanceFrom, const glm::vec3& to, float distanceTo) const;
 
     std::shared_ptr<const Surface> m_surface;
     float m_clearance = 0.0f;

@@ -79,7 +79,6 @@ private Q_SLOTS:
 
     void hairOutsideStaysAndRootsNeverMove() {
         const SkinGuard guard(sphereSurface());
-        const DistanceField& skin = guard.surface().skin();
         std::vector<glm::vec3> points;
         std::vector<float> ease;
         for (int v = 0; v < 8; ++v) {
