@@ -36,8 +36,8 @@ vec3 strandLight(vec3 tangent, vec3 normal, vec3 toEye, vec3 toLight, vec3 albed
     float p = scene.hair.z;
     float glints = 0.55 + 0.9 * fract(random * 57.31);
     vec3 tinted = albedo / max(max(albedo.r, max(albedo.g, albedo.b)), 0.02);
-    vec3 specular = vec3(0.44) * pow(first, p * 1.7) * (0.6 + 0.8 * fract(random * 91.7));
-    specular += tinted * (0.10 + 0.85 * sqrt(albedo)) * pow(second, p * 0.4) * glints;
+    vec3 specular = vec3(0.34) * pow(first, p * 1.7) * (0.6 + 0.8 * fract(random * 91.7));
+    specular += tinted * (0.08 + 0.72 * sqrt(albedo)) * pow(second, p * 0.4) * glints;
     vec3 diffuse = albedo * scene.hair.x * sine(along);
     // Highlights need light and eye on this side of the head.
     float side = smoothstep(-0.15, 0.55, dot(normal, toLight)) * smoothstep(-0.4, 0.4, dot(normal, toEye));

@@ -16,6 +16,8 @@ void skinLight(vec3 position, vec3 n, vec3 toEye, out vec3 light, out vec3 gloss
     light += scene.fillColour.rgb * ambient.w * clamp(dot(n, scene.fillDirection.xyz) * 0.6 + 0.4, 0.0, 1.0);
     light += scene.rimColour.rgb * ambient.w * clamp(dot(n, scene.rimDirection.xyz), 0.0, 1.0);
     light += hemisphere(n) * scene.hair.w * ambient.w;
+    // White plaster stays below white.
+    light *= 0.56;
     // A broad, weak sheen, stronger at grazing angles.
     vec3 halfway = normalize(scene.keyDirection.xyz + toEye);
     float fresnel = 0.035 + 0.5 * pow(1.0 - clamp(dot(n, toEye), 0.0, 1.0), 5.0);
