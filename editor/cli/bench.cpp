@@ -9,11 +9,13 @@ namespace whorl {
 
 std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchSampler();
+std::vector<BenchRow> benchDraw();
 
 std::span<const Bench> benches() {
     static const std::array list{
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"sampler", "Random roots, against bisection and rejection", benchSampler},
+        Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
     };
     return list;
 }

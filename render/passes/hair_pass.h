@@ -33,6 +33,7 @@ private:
     std::shared_ptr<const Strands> m_strands;
     HairOrder m_order;
     gl::Program m_points;
+    gl::Program m_quickPoints;
     gl::Program m_ribbons;
     gl::Program m_plainRibbons;
     gl::VertexArray m_vertexArray;

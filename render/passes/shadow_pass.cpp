@@ -28,18 +28,21 @@ void ShadowPass::update(const Strands* hair, const ViewSettings& settings, const
     scene.shadow.x = 0.0f;
     scene.shadow.y = 1.0f / static_cast<float>(mapSize);
     if (hair != nullptr && shadows) {
-        if (!m_hairValid || moved(m_hairLight) || !(m_detail == detail)) {
+        // While the view moves, shadows of other detail than what is drawn serve as well.
+        const bool lenient = lightSlack > 0.0f;
+        if (!m_hairValid || moved(m_hairLight) || (!lenient && !(m_hairDetail == detail))) {
             m_voxels.build(*hair, detail, light);
             m_hairVolume.upload3D(m_voxels.texels().data());
             m_hairLight = light;
+            m_hairDetail = detail;
             m_hairValid = true;
         }
-        if (!m_ambientValid || !(m_detail == detail)) {
+        if (m_ambient.texels().empty() || (!lenient && (!m_ambientValid || !(m_ambientDetail == detail)))) {
             m_ambient.build(*hair, detail);
             m_ambientVolume.upload3D(m_ambient.texels().data());
+            m_ambientDetail = detail;
             m_ambientValid = true;
         }
-        m_detail = detail;
         scene.voxelFromGroom = m_voxels.voxelFromGroom();
         scene.shadow.x = std::log2(std::clamp(settings.shadowAlpha, 0.01f, 1.0f)) * VoxelShadow::fullLayers;
         scene.ambientScale = glm::vec4(m_ambient.scale(), 0.0f);

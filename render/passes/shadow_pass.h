@@ -19,8 +19,8 @@ public:
         m_ambientValid = false;
     }
     /// Makes what is out of date and fills the places of it in `scene`. `hair` and `mesh` may be null. Shadows
-    /// stay while the light is within `lightSlack` radians of the one that made them. Draws the shadow
-    /// map with `sceneBuffer`.
+    /// stay while the light is within `lightSlack` radians of the one that made them; above zero, ambient light stays,
+    /// too. Draws the shadow map with `sceneBuffer`.
     void update(const Strands* hair, const ViewSettings& settings, const HairDetail& detail, float lightSlack,
                 const Bounds& meshBounds, MeshPass* mesh, SceneBlock& scene, gl::Buffer& sceneBuffer);
     void bind() const;
@@ -36,7 +36,8 @@ private:
     AmbientVolume m_ambient;
     glm::vec3 m_hairLight{0.0f};
     glm::vec3 m_mapLight{0.0f};
-    HairDetail m_detail{};
+    HairDetail m_hairDetail{};
+    HairDetail m_ambientDetail{};
     bool m_meshDrawn = false;
     bool m_hairValid = false;
     bool m_ambientValid = false;

@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "render/passes/scene_block.h"
+#include "render/passes/voxel_sum.kernel.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -146,32 +147,10 @@ void VoxelShadow::build(const Strands& strands, const HairDetail& detail, const 
         walk(strands, detail.stride, begin, end, toGrid, side, countsOfArea,
              [&](std::size_t cell, std::uint32_t amount) { add(m_counts[cell], amount); });
     });
-    // Rows in y are independent: each sums its own columns along z, then spreads one voxel to both sides in x.
     constexpr float texelsOfCount = 65535.0f / (fullLayers * fixedPoint);
+    const auto sum = WHORL_PICK(sumVoxels);
     parallelFor(side, 16, [&](std::size_t begin, std::size_t end) {
-        std::array<std::uint32_t, side> sum;
-        for (std::size_t y = begin; y < end; ++y) {
-            sum.fill(0);
-            for (std::size_t z = 0; z < side; ++z) {
-                const std::uint32_t* row = m_counts.data() + z * slice + y * side;
-                const std::uint32_t* above = y > 0 ? row - side : row;
-                const std::uint32_t* below = y + 1 < side ? row + side : row;
-                std::uint16_t* out = m_texels.data() + z * slice + y * side;
-                // Half of a voxel's own hair lies before its centre.
-                std::array<float, side> middle;
-                for (std::size_t x = 0; x < side; ++x) {
-                    const std::uint32_t here = (above[x] + 2 * row[x] + below[x]) >> 2;
-                    middle[x] = static_cast<float>(sum[x] + (here >> 1));
-                    sum[x] += here;
-                }
-                for (std::size_t x = 1; x + 1 < side; ++x) {
-                    const float spread = 0.25f * (middle[x - 1] + middle[x + 1]) + 0.5f * middle[x];
-                    out[x] = static_cast<std::uint16_t>(static_cast<int>(std::min(spread * texelsOfCount, 65535.0f)));
-                }
-                out[0] = 0;
-                out[side - 1] = 0;
-            }
-        }
+        sum(m_counts.data(), m_texels.data(), texelsOfCount, static_cast<int>(begin), static_cast<int>(end));
     });
 }
 
@@ -204,8 +183,8 @@ void VoxelShadow::buildReference(const Strands& strands, const HairDetail& detai
     for (std::size_t i = 0; i < cells; ++i) {
         const std::size_t x = i % side;
         if (x == 0 || x + 1 == side) continue;
-        const float spread = 0.25f * (middle[i - 1] + middle[i + 1]) + 0.5f * middle[i];
-        m_texels[i] = static_cast<std::uint16_t>(static_cast<int>(std::min(spread * texelsOfCount, 65535.0f)));
+        const float spread = (0.25f * (middle[i - 1] + middle[i + 1]) + 0.5f * middle[i]) * texelsOfCount;
+        m_texels[i] = static_cast<std::uint16_t>(static_cast<int>(std::min(spread, 65535.0f)));
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every hair at `pointsPerHair` even places of its Catmull-Rom curve: projected, and lit by Kajiya-Kay.
-// Once a point: the two corners of the ribbon there, ready for the rasteriser.
+// QUICK: highlights of the key light only. Once a point: the two corners of the ribbon there, ready for the rasteriser.
 layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "lighting.glsl"
@@ -102,8 +102,13 @@ void main() {
     float wrapFill = clamp(dot(outward, scene.fillDirection.xyz) * 0.6 + 0.4, 0.0, 1.0);
     float wrapRim = clamp((dot(outward, scene.rimDirection.xyz) + 0.3) / 1.3, 0.0, 1.0);
     vec3 lit = keyLight * strandLight(tangent, normal, toEye, scene.keyDirection.xyz, albedo, root.w, wrapKey);
+#ifdef QUICK
+    vec3 others = scene.fillColour.rgb * wrapFill + scene.rimColour.rgb * (visible * wrapRim * 1.3);
+    lit += others * albedo * (visible * scene.hair.x);
+#else
     lit += scene.fillColour.rgb * visible * strandLight(tangent, normal, toEye, scene.fillDirection.xyz, albedo, root.w, wrapFill);
     lit += scene.rimColour.rgb * visible * visible * strandLight(tangent, normal, toEye, scene.rimDirection.xyz, albedo, root.w, wrapRim);
+#endif
     lit += hemisphere(outward) * scene.hair.w * albedo * visible;
 
     float halfWidth = max(pixels, scene.pixel.y) * 0.5;
