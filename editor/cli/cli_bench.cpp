@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace whorl::cli {
@@ -72,7 +73,15 @@ nlohmann::ordered_json rowJson(const BenchRow& row) {
 }
 
 Outcome runBenches(const Options& options) {
-    bool any = false, correct = true;
+    const auto asked = [&](const Bench& bench) {
+        return std::string(bench.name).find(options.filter) != std::string::npos;
+    };
+    if (std::ranges::none_of(benches(), asked)) {
+        std::string names;
+        for (const Bench& bench : benches()) names += (names.empty() ? "" : ", ") + std::string(bench.name);
+        return badUsage("FILTER: no benchmark is called \"" + options.filter + "\"; there are " + names + ".");
+    }
+    bool correct = true;
     std::string wrong;
     auto json = nlohmann::ordered_json::array();
     if (!options.json) {
@@ -82,8 +91,7 @@ Outcome runBenches(const Options& options) {
         if (!print(head)) return printed("");
     }
     for (const Bench& bench : benches()) {
-        if (std::string(bench.name).find(options.filter) == std::string::npos) continue;
-        any = true;
+        if (!asked(bench)) continue;
         for (const BenchRow& row : bench.run()) {
             if (!row.correct) {
                 correct = false;
@@ -95,11 +103,6 @@ Outcome runBenches(const Options& options) {
                 return printed("");
             }
         }
-    }
-    if (!any) {
-        std::string names;
-        for (const Bench& bench : benches()) names += (names.empty() ? "" : ", ") + std::string(bench.name);
-        return badUsage("FILTER: no benchmark is called \"" + options.filter + "\"; there are " + names + ".");
     }
     if (options.json) {
         if (Outcome out = printed(json.dump(2) + "\n"); out.status != Status::Ok) return out;
