@@ -27,11 +27,11 @@ class CombBrush : public GuideBrush {
         if (first == 0) return;
         glm::vec3 old = points[0];  // the previous point before this step
         glm::vec3 direction(0.0f, 1.0f, 0.0f);
-        float weight = 0.0f, along = 0.0f;
+        float weight = 0.0f;
+        SkinWalk walk{skin()};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const glm::vec3 here = points[i];
             const float length = glm::length(touch.original[i] - touch.original[i - 1]);
-            along += length;
             glm::vec3 target = here;
             if (i >= first && i <= last) {
                 weight = std::max(weight, touch.weights[i]);
@@ -39,13 +39,13 @@ class CombBrush : public GuideBrush {
             } else if (i > last) {
                 target = points[i - 1] + (here - old);
             }
-            if (step.settings.keepLength) {
-                // Untouched points before the brush stay as they are, bit for bit.
-                if (i >= first || points[i - 1] != old) {
-                    points[i] = placeNext(points[i - 1], target, direction, length, along, skin());
-                }
-            } else if (i >= first) {
-                points[i] = pushOut(target, along, skin());
+            // Untouched points before the brush stay as they are, bit for bit.
+            const bool stays = i < first;
+            if (step.settings.keepLength && !stays) {
+                points[i] = placeNext(walk, points[i - 1], target, direction, length);
+            } else {
+                walk.along += length;
+                if (!stays) points[i] = pushOut(target, walk.along, skin());
             }
             const glm::vec3 segment = points[i] - points[i - 1];
             if (glm::dot(segment, segment) > 0.0f) direction = glm::normalize(segment);

@@ -39,14 +39,21 @@ glm::vec3 pushOut(const glm::vec3& point, float along, const SkinClearance& skin
     return p;
 }
 
-glm::vec3 placeNext(const glm::vec3& previous, const glm::vec3& target, const glm::vec3& direction, float length,
-                    float along, const SkinClearance& skin) {
+glm::vec3 placeNext(SkinWalk& walk, const glm::vec3& previous, const glm::vec3& target, const glm::vec3& direction,
+                    float length) {
+    const SkinClearance& skin = walk.skin;
+    walk.along += length;
     const glm::vec3 segment = scaledTo(target - previous, length, direction);
     const glm::vec3 free = previous + segment;
     if (skin.skin == nullptr) return free;
-    const float asked = skin.at(along);
+    const float asked = skin.at(walk.along);
+    // A quarter more than the way, because the field interpolates.
+    walk.free -= 1.25f * length;
+    if (walk.free >= asked) return free;
     float distance = skin.skin->distance(free);
+    walk.free = distance;
     if (distance >= asked) return free;
+    walk.free = 0.0f;
 
     // Slide: out along the gradient, then back to the length.
     glm::vec3 best = free;
@@ -86,15 +93,14 @@ glm::vec3 placeNext(const glm::vec3& previous, const glm::vec3& target, const gl
 }
 
 void settle(std::span<glm::vec3> points, std::span<const glm::vec3> original, const SkinClearance& skin) {
-    float along = 0.0f;
+    SkinWalk walk{skin};
     glm::vec3 before = points[0];  // the previous point as it was asked for
     glm::vec3 direction(0.0f, 1.0f, 0.0f);
     for (std::size_t i = 1; i < points.size(); ++i) {
         const float length = glm::length(original[i] - original[i - 1]);
-        along += length;
         const glm::vec3 segment = points[i] - before;
         before = points[i];
-        points[i] = placeNext(points[i - 1], points[i - 1] + segment, direction, length, along, skin);
+        points[i] = placeNext(walk, points[i - 1], points[i - 1] + segment, direction, length);
         direction = scaledTo(points[i] - points[i - 1], 1.0f, direction);
     }
 }

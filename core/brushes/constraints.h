@@ -22,11 +22,19 @@ struct SkinClearance {
     float at(float along) const;
 };
 
+/// Goes along one guide from root to tip. Distance to the skin falls by no more than the way gone, so far from the skin
+/// most points need not ask for it.
+struct SkinWalk {
+    const SkinClearance& skin;
+    float along = 0.0f;  ///< metres from the root to the newest point
+    float free = 0.0f;   ///< the newest point is at least so far from the skin; 0: not known
+};
+
 /// Places the point after `previous`: as near to `target` as a segment of exactly `length` and the skin allow. The skin
 /// moves the point along its gradient and the length is restored by turning the segment, so that both hold at once as
 /// long as `previous` itself keeps its clearance. `direction` (unit length) is used where `target` is on `previous`.
-glm::vec3 placeNext(const glm::vec3& previous, const glm::vec3& target, const glm::vec3& direction, float length,
-                    float along, const SkinClearance& skin);
+glm::vec3 placeNext(SkinWalk& walk, const glm::vec3& previous, const glm::vec3& target, const glm::vec3& direction,
+                    float length);
 
 /// Moves a point out of the skin where it is nearer than asked; no length to keep.
 glm::vec3 pushOut(const glm::vec3& point, float along, const SkinClearance& skin);

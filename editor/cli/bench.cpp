@@ -7,14 +7,18 @@
 
 namespace whorl {
 
-std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchSampler();
+std::vector<BenchRow> benchHair();
+std::vector<BenchRow> benchComb();
+std::vector<BenchRow> benchPaint();
 std::vector<BenchRow> benchDraw();
 
 std::span<const Bench> benches() {
     static const std::array list{
-        Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"sampler", "Random roots, against bisection and rejection", benchSampler},
+        Bench{"hair", "Generation of hair, against the reference generator", benchHair},
+        Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
+        Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
     };
     return list;
