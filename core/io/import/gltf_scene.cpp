@@ -14,7 +14,6 @@
 namespace whorl::import {
 namespace {
 
-constexpr std::uint64_t maxPrimitiveUses = 2'000'000;
 constexpr std::uint64_t maxSparseReads = 100'000'000;
 constexpr std::size_t maxProblems = 100;
 
@@ -55,6 +54,7 @@ public:
         if (auto counted = countSource(); !counted) return counted.error();
         const auto instances = findInstances(m_model);
         if (!instances) return meshError(m_name, instances.error().message);
+        if (auto fits = checkTotals(*instances); !fits) return fits.error();
         for (const GltfInstance& instance : *instances) {
             if (m_progress.cancelled()) return cancelledError();
             if (auto added = addInstance(instance); !added) return added.error();
@@ -123,17 +123,35 @@ private:
 
     // Every mesh of the file once, shown or not.
     Result<void> countSource() {
+        m_trianglesOf.assign(m_model.meshes.size(), 0);
         for (std::size_t m = 0; m < m_model.meshes.size(); ++m) {
             for (std::size_t p = 0; p < m_model.meshes[m].primitives.size(); ++p) {
                 const auto& source = m_model.meshes[m].primitives[p];
                 const auto primitive = open(source);
                 if (!primitive) return wrong(m, p, primitive.error().message);
                 if (*primitive) {
-                    m_out.sourceTriangles += (*primitive)->triangles;
+                    m_trianglesOf[m] += (*primitive)->triangles;
                 } else {
                     ++(attribute(source, "POSITION") < 0 ? m_withoutPositions : m_notTriangles);
                 }
             }
+            m_out.sourceTriangles += m_trianglesOf[m];
+        }
+        return {};
+    }
+
+    // A small file can show one mesh a million times; that must come out before any memory is taken.
+    Result<void> checkTotals(const std::vector<GltfInstance>& instances) const {
+        std::uint64_t triangles = 0;
+        std::uint64_t parts = 0;
+        for (const GltfInstance& instance : instances) {
+            triangles += m_trianglesOf[static_cast<std::size_t>(instance.mesh)];
+            parts += m_model.meshes[static_cast<std::size_t>(instance.mesh)].primitives.size();
+            if (triangles > maxTriangles) {
+                return meshError(m_name, "it has more than 20 million triangles",
+                                 "reduce the mesh and export it again");
+            }
+            if (parts > maxParts) return meshError(m_name, "its scene shows more than 100,000 parts");
         }
         return {};
     }
@@ -158,19 +176,11 @@ private:
         const auto meshNumber = static_cast<std::size_t>(instance.mesh);
         const tinygltf::Mesh& mesh = m_model.meshes[meshNumber];
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-            if (++m_uses > maxPrimitiveUses) return meshError(m_name, "its scene shows more than two million parts");
             const tinygltf::Primitive& source = mesh.primitives[p];
             auto opened = open(source);
             if (!opened) return wrong(meshNumber, p, opened.error().message);
             if (!*opened || (*opened)->triangles == 0) continue;
             Primitive& primitive = **opened;
-            m_triangles += primitive.triangles;
-            if (m_triangles > maxTriangles) {
-                return meshError(m_name, "it has more than 20 million triangles",
-                                 "reduce the mesh and export it again");
-            }
-            if (m_out.mesh.parts.size() >= maxParts)
-                return meshError(m_name, "its scene shows more than 100,000 parts");
             const GltfMaterial& material = m_materials.get(source.material);
             const std::uint64_t vertices = primitive.positions.count();
             primitive.normals = optional(source, "NORMAL", 3, vertices);
@@ -281,8 +291,7 @@ private:
     RawImport m_out;
     GltfMaterials m_materials;
     UniqueNames m_names;
-    std::uint64_t m_triangles = 0;
-    std::uint64_t m_uses = 0;
+    std::vector<std::uint64_t> m_trianglesOf;  ///< by mesh
     std::uint64_t m_sparse = 0;
     std::uint64_t m_notTriangles = 0;
     std::uint64_t m_withoutPositions = 0;

@@ -11,6 +11,14 @@
 #include <exception>
 #include <new>
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WHORL_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define WHORL_SANITIZED
+#endif
+#endif
+
 namespace whorl::image_worker {
 namespace {
 
@@ -27,7 +35,7 @@ bool limit(int resource, rlim_t value) {
 bool limitMyself() {
     namespace protocol = whorl::image_protocol;
     bool ok = limit(RLIMIT_CORE, 0) && limit(RLIMIT_CPU, protocol::maxSeconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(WHORL_SANITIZED)
     // The sanitizers reserve terabytes of address space that they never use.
     ok = ok && limit(RLIMIT_AS, protocol::maxMemoryBytes);
 #endif
