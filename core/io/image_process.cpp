@@ -144,11 +144,15 @@ void ImageProcess::end() {
 }
 
 Error ImageProcess::whyItDied() {
+    // It closed its end, so it ends within moments; a worker that a file has taken over may not.
     int status = 0;
     pid_t ended = 0;
-    do {
-        ended = waitpid(m_process, &status, 0);
-    } while (ended < 0 && errno == EINTR);
+    for (int wait = 0; wait < 500 && ended == 0; ++wait) {
+        ended = waitpid(m_process, &status, WNOHANG);
+        if (ended < 0 && errno == EINTR) ended = 0;
+        if (ended == 0) ::usleep(1000);
+    }
+    if (ended == 0) end();
     m_process = -1;
     if (ended > 0 && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
         return {"reading it took more than 20 seconds"};

@@ -92,7 +92,7 @@ public:
         const glm::dvec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
         const glm::dvec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
         const auto x0 = cellOf(low.x), x1 = cellOf(high.x), y0 = cellOf(low.y), y1 = cellOf(high.y);
-        const bool wide = (x1 - x0 + 1) * (y1 - y0 + 1) > 64;
+        const bool wide = static_cast<double>(x1 - x0 + 1) * static_cast<double>(y1 - y0 + 1) > 64.0;
         if (wide && m_wide.size() >= mostWide) return false;
         for (const std::uint32_t other : m_wide) {
             if (overlap(triangle, m_triangles[other])) return false;

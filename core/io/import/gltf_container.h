@@ -21,7 +21,7 @@ struct GltfContainer {
 };
 Result<GltfContainer> openContainer(std::span<const std::uint8_t> bytes);
 
-/// The first required extension that this program can not do without knowing it; nothing when all are fine.
+/// True for extensions that a file may require although this program leaves them out: none moves a triangle.
 bool knownExtension(std::string_view name);
 
 }  // namespace whorl::import

@@ -687,6 +687,22 @@ private Q_SLOTS:
         QVERIFY(!importMesh(folder, progress).ok());
     }
 
+    // Files in tests/data/mesh_import on which an importer once failed; to be run under sanitizers too.
+    void onceFailed() {
+        const QByteArray resources = qgetenv("WHORL_RESOURCES");
+        if (resources.isEmpty()) QSKIP("WHORL_RESOURCES does not name the resources of the tree");
+        const fs::path folder = fs::path(resources.toStdString()) / ".." / "tests" / "data" / "mesh_import";
+        int files = 0;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            Progress progress;
+            const auto got = importMesh(entry.path(), progress, {.textures = false});
+            if (got) QCOMPARE(brokenPromise(got->mesh), std::string());
+            if (!got) QVERIFY2(goodSentence(got.error().message), got.error().message.c_str());
+            ++files;
+        }
+        QVERIFY(files > 0);
+    }
+
     void cancelled() {
         Progress progress;
         progress.cancel();
