@@ -102,11 +102,12 @@ void hairParamsFromJson(HairParams& params, const json& object, const std::strin
     }
     for (const auto& [key, value] : object.items()) {
         bool known = false;
-        HairParams::each(params, [&, name = std::string_view(key)](const BlockInfo& info, auto& block) {
-            if (info.id != name) return;
-            known = true;
-            blockFromJson(paramsOf(block), value, where + "/" + std::string(info.id), problems);
-        });
+        HairParams::each(params,
+                         [&, name = std::string_view(key), stored = &value](const BlockInfo& info, auto& block) {
+                             if (info.id != name) return;
+                             known = true;
+                             blockFromJson(paramsOf(block), *stored, where + "/" + std::string(info.id), problems);
+                         });
         if (!known) problems.push_back(where + ": unknown block \"" + key + "\"; left out.");
     }
 }
