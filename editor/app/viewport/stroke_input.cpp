@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "editor/app/viewport/stroke_input.h"
+
+#include "editor/app/widgets/param_source.h"
+
+namespace whorl {
+
+const BrushInfo* StrokeInput::brushFor(const EditorState& state, Qt::KeyboardModifiers modifiers) {
+    const BrushInfo* brush = state.brush();
+    if (brush && !brush->paintsMap && (modifiers & Qt::ShiftModifier)) {
+        if (const BrushInfo* smooth = findBrush("smooth")) return smooth;
+    }
+    return brush;
+}
+
+Result<void> StrokeInput::begin(const StrokeView& view, const StrokePoint& point, Qt::KeyboardModifiers modifiers) {
+    drop();
+    m_brush = brushFor(m_state, modifiers);
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    if (!m_brush || !surface) return {};
+    const BrushSettings settings = m_state.brushOptions().settings(modifiers.testFlag(Qt::ControlModifier));
+    Result<Stroke> stroke = Stroke::begin(*m_brush, m_document.committed(), surface, view, settings);
+    if (!stroke) return stroke.error();
+    m_stroke.emplace(std::move(*stroke));
+    // A press alone must already be a preview: undo and Escape then know that a stroke is on its way.
+    m_stroke->moveTo(point);
+    m_document.preview(m_stroke->groom());
+    return {};
+}
+
+void StrokeInput::move(const StrokePoint& point) {
+    if (m_stroke && m_stroke->moveTo(point)) m_document.preview(m_stroke->groom());
+}
+
+void StrokeInput::finish() {
+    if (!m_stroke) return;
+    Groom after = m_stroke->finish();
+    m_stroke.reset();
+    m_document.edit(std::move(after), qtext(m_brush->undoText));
+}
+
+void StrokeInput::drop() {
+    if (!m_stroke) return;
+    m_stroke.reset();
+    m_document.revert();
+}
+
+}  // namespace whorl

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "editor/app/viewport/viewport.h"
+
+#include <QLocale>
+#include <QOpenGLContext>
+#include <QSurfaceFormat>
+#include <chrono>
+
+namespace whorl {
+namespace {
+
+constexpr int stillMilliseconds = 180;
+constexpr std::uint32_t interactiveHairs = 10000;
+
+/// True when hair generated from `a` can differ from that of `b`.
+bool hairMayDiffer(const Groom& a, const Groom& b) {
+    return !a.mesh.sameAs(b.mesh) || !a.partSettings.sameAs(b.partSettings) || !a.guides.sameAs(b.guides) ||
+           !a.maps.sameAs(b.maps) || !a.groups.sameAs(b.groups) || !a.counts.sameAs(b.counts);
+}
+
+}  // namespace
+
+Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
+    : QOpenGLWidget(parent), m_document(document), m_state(state), m_stroke(document, state), m_adjust(state) {
+    setObjectName("viewport");
+    setAccessibleName(tr("View"));
+    setAccessibleDescription(tr("The model with its hair. Brushes work here."));
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setTabletTracking(true);
+    setMinimumSize(200, 150);
+    QSurfaceFormat format;
+    format.setRenderableType(QSurfaceFormat::OpenGL);
+    format.setVersion(4, 5);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    setFormat(format);
+    m_settle.setSingleShot(true);
+    m_settle.setInterval(stillMilliseconds);
+    connect(&m_settle, &QTimer::timeout, this, [this] {
+        requestHair();
+        update();
+    });
+    connect(&m_document, &Document::changed, this, &Viewport::documentChanged);
+    connect(&m_state, &EditorState::changed, this, [this] {
+        setCursor(m_state.brush() ? Qt::CrossCursor : Qt::ArrowCursor);
+        Q_EMIT hintChanged(hint());
+        update();
+    });
+    connect(&m_hair, &HairJob::delivered, this, [this](std::shared_ptr<const Strands> strands) {
+        m_strands = std::move(strands);
+        update();
+    });
+    connect(&m_hair, &HairJob::failed, this, &Viewport::said);
+}
+
+Viewport::~Viewport() {
+    disconnect(&m_document, nullptr, this, nullptr);
+    releaseRenderer();
+}
+
+void Viewport::releaseRenderer() {
+    if (!m_renderer) return;
+    makeCurrent();
+    m_renderer.reset();
+    doneCurrent();
+}
+
+void Viewport::initializeGL() {
+    // A lost or moved context comes here again; everything is uploaded anew from the document.
+    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseRenderer, Qt::UniqueConnection);
+    Result<std::unique_ptr<Renderer>> renderer = Renderer::create();
+    if (renderer) {
+        m_renderer = std::move(*renderer);
+    } else {
+        Q_EMIT failed(QString::fromStdString(renderer.error().message));
+    }
+}
+
+void Viewport::paintGL() {
+    if (!m_renderer) return;
+    const auto start = std::chrono::steady_clock::now();
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    m_renderer->setGroom(m_document.groom(), surface);
+    m_renderer->setStrands(m_strands);
+    ViewSettings settings = viewSettings();
+    if (interacting()) settings.samples = 1;
+    const double ratio = devicePixelRatio();
+    const glm::ivec2 size(static_cast<int>(width() * ratio), static_cast<int>(height() * ratio));
+    m_renderer->draw(m_camera, settings, overlay(), defaultFramebufferObject(), size);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+    m_drawMilliseconds = spent.count();
+}
+
+ViewSettings Viewport::viewSettings() const {
+    ViewSettings settings = m_state.viewOptions().settings();
+    if (const BrushInfo* brush = m_state.brush(); brush && brush->paintsMap) {
+        const std::string& map = m_state.brushOptions().map.name;
+        if (m_document.groom().maps.find(map)) settings.overlayMap = map;
+    }
+    return settings;
+}
+
+OverlayState Viewport::overlay() const {
+    OverlayState overlay;
+    const float ratio = static_cast<float>(devicePixelRatio());
+    overlay.showBrush = m_state.brush() && (m_inside || m_adjust.active()) && !m_navigation.active();
+    overlay.brushPixel = (m_adjust.active() ? m_adjust.centre() : m_pixel) * ratio;
+    overlay.brushRadius = m_state.brushOptions().radius * ratio;
+    overlay.brushStrength = m_state.brushOptions().strength;
+    if (m_document.hasGroom()) {
+        const auto count = [](std::size_t n) { return QLocale().toString(static_cast<qulonglong>(n)); };
+        overlay.text = tr("%1 hairs shown, %2 guides   hair %3 ms, picture %4 ms")
+                           .arg(count(m_strands ? m_strands->count() : 0), count(m_document.groom().guides.count()))
+                           .arg(m_hair.milliseconds(), 0, 'f', 0)
+                           .arg(m_drawMilliseconds, 0, 'f', 0)
+                           .toStdString();
+    }
+    return overlay;
+}
+
+void Viewport::documentChanged() {
+    // Undo, or a jump in the history, ends a stroke that is on its way.
+    if (m_stroke.active() && !m_document.previewing()) m_stroke.drop();
+    const bool otherMesh = !m_document.groom().mesh.sameAs(m_seen.mesh);
+    requestHair();
+    if (otherMesh) frameAll();
+    if (m_document.previewing()) m_settle.start();
+    update();
+}
+
+void Viewport::requestHair() {
+    const Groom& groom = m_document.groom();
+    const std::uint32_t wanted = static_cast<std::uint32_t>(std::max(groom.counts->shownHairs, 0));
+    const bool live = interacting() && wanted > interactiveHairs;
+    if (!hairMayDiffer(groom, m_seen) && live == m_seenInteractive) return;
+    const bool reseeded = !groom.mesh.sameAs(m_seen.mesh);
+    m_seen = groom;
+    m_seenInteractive = live;
+    if (reseeded) m_strands.reset();
+    m_hair.request(groom, m_document.surface(), live ? interactiveHairs : wanted, m_document.previewing());
+}
+
+bool Viewport::interacting() const {
+    return m_navigation.active() || m_document.previewing() || m_settle.isActive();
+}
+
+void Viewport::interacted() {
+    m_settle.start();
+    update();
+}
+
+bool Viewport::settled() const {
+    return !interacting() && !m_hair.busy();
+}
+
+Bounds Viewport::sceneBounds() const {
+    Bounds bounds;
+    if (const auto surface = m_document.surface()) bounds = surface->bounds;
+    const GuideSet& guides = m_document.groom().guides;
+    for (std::size_t i = 0; i < guides.blockCount(); ++i) {
+        for (const glm::vec3& p : guides.block(i).points) bounds.add(p);
+    }
+    return bounds;
+}
+
+glm::vec2 Viewport::sizePixels() const {
+    return {static_cast<float>(width()), static_cast<float>(height())};
+}
+
+void Viewport::setCamera(const Camera& camera) {
+    m_camera = camera;
+    interacted();
+}
+
+void Viewport::frameAll() {
+    const Bounds bounds = sceneBounds();
+    if (bounds.empty()) return;
+    m_camera.frame(bounds, sizePixels());
+    interacted();
+}
+
+void Viewport::frameHair() {
+    Bounds bounds;
+    const GuideSet& guides = m_document.groom().guides;
+    for (std::size_t i = 0; i < guides.blockCount(); ++i) {
+        for (const glm::vec3& p : guides.block(i).points) bounds.add(p);
+    }
+    if (bounds.empty()) return frameAll();
+    m_camera.frame(bounds, sizePixels());
+    interacted();
+}
+
+void Viewport::lookFrom(const char* name) {
+    const Bounds bounds = sceneBounds();
+    if (bounds.empty()) return;
+    const Result<Camera> camera = Camera::named(name, bounds, sizePixels());
+    if (!camera) return;
+    // Only the direction changes: the artist stays as near to the place as before.
+    m_camera.azimuth = camera->azimuth;
+    m_camera.elevation = camera->elevation;
+    interacted();
+}
+
+}  // namespace whorl

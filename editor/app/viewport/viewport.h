@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view of the groom: draws it, moves the camera, and hands strokes to the document.
+#pragma once
+
+#include "editor/app/document.h"
+#include "editor/app/editor_state.h"
+#include "editor/app/hair_job.h"
+#include "editor/app/viewport/brush_adjust.h"
+#include "editor/app/viewport/navigation.h"
+#include "editor/app/viewport/stroke_input.h"
+#include "render/renderer.h"
+
+#include <QOpenGLWidget>
+#include <QTimer>
+#include <memory>
+
+namespace whorl {
+
+class Viewport : public QOpenGLWidget {
+    Q_OBJECT
+
+public:
+    Viewport(Document& document, EditorState& state, QWidget* parent = nullptr);
+    ~Viewport() override;
+
+    const Camera& camera() const { return m_camera; }
+    void setCamera(const Camera& camera);
+    /// The whole model, from where the camera is.
+    void frameAll();
+    /// The guides, or the whole model when there are none.
+    void frameHair();
+    /// A name that Camera::named knows.
+    void lookFrom(const char* name);
+
+    /// What the next press would do, in words; changes with tool and held keys.
+    QString hint() const;
+    /// Nothing is being generated, and the picture is the final one.
+    bool settled() const;
+    std::shared_ptr<const Strands> strands() const { return m_strands; }
+    /// The view's settings with the tool's overlay, as they are drawn.
+    ViewSettings viewSettings() const;
+
+Q_SIGNALS:
+    void hintChanged(const QString& hint);
+    /// A sentence for the artist (a brush that refuses, hair that can not be made).
+    void said(const QString& sentence);
+    /// Drawing is impossible on this machine.
+    void failed(const QString& sentence);
+
+protected:
+    void initializeGL() override;
+    void paintGL() override;
+    bool event(QEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void tabletEvent(QTabletEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void enterEvent(QEnterEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+
+private:
+    void documentChanged();
+    void requestHair();
+    void interacted();
+    bool interacting() const;
+    void press(glm::vec2 pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, float pressure);
+    void move(glm::vec2 pixel, Qt::KeyboardModifiers modifiers, float pressure);
+    void release();
+    /// Escape: gives up whatever is going on. False when nothing was.
+    bool dropAll();
+    void setModifiers(Qt::KeyboardModifiers modifiers);
+    void releaseRenderer();
+    OverlayState overlay() const;
+    Bounds sceneBounds() const;
+    glm::vec2 sizePixels() const;
+
+    Document& m_document;
+    EditorState& m_state;
+    Camera m_camera;
+    Navigation m_navigation;
+    StrokeInput m_stroke;
+    BrushAdjust m_adjust;
+    HairJob m_hair;
+    std::unique_ptr<Renderer> m_renderer;
+    std::shared_ptr<const Strands> m_strands;
+    Groom m_seen;  // what the last request for hair was made from
+    bool m_seenInteractive = false;
+    QTimer m_settle;  // runs out when the artist has been still for a moment
+    glm::vec2 m_pixel{0.0f};
+    bool m_inside = false;
+    Qt::KeyboardModifiers m_modifiers;
+    double m_drawMilliseconds = 0.0;
+};
+
+}  // namespace whorl
