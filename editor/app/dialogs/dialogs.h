@@ -8,6 +8,8 @@
 #include <QDialog>
 #include <vector>
 
+class QKeySequenceEdit;
+class QLabel;
 class QLineEdit;
 class QListWidget;
 class QTableWidget;
@@ -49,8 +51,8 @@ private:
     void assign();
     Actions& m_actions;
     QTableWidget* m_table;
-    class QKeySequenceEdit* m_keys;
-    class QLabel* m_note;
+    QKeySequenceEdit* m_keys;
+    QLabel* m_note;
 };
 
 /// Navigation, theme, undo memory. Kept in the settings and applied at once.

@@ -6,10 +6,13 @@
 
 #include <QWidget>
 
+class QLabel;
 class QListWidget;
 class QListWidgetItem;
+class QPushButton;
 class QToolButton;
-class QVBoxLayout;
+class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace whorl {
 
@@ -38,9 +41,9 @@ private:
     void refresh();
     PanelContext m_context;
     ParamForm* m_form;
-    class QLabel* m_title;
-    class QLabel* m_tip;
-    class QPushButton* m_makeMap;
+    QLabel* m_title;
+    QLabel* m_tip;
+    QPushButton* m_makeMap;
 };
 
 /// Groups, and all parameters of the active one.
@@ -105,9 +108,9 @@ public:
 
 private:
     void refresh();
-    void toggled(class QTreeWidgetItem* item, int column);
+    void toggled(QTreeWidgetItem* item, int column);
     PanelContext m_context;
-    class QTreeWidget* m_tree;
+    QTreeWidget* m_tree;
     Cow<SurfaceMesh> m_seenMesh;
     Cow<std::vector<PartSettings>> m_seen;
     bool m_filling = false;

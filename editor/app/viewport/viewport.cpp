@@ -83,7 +83,7 @@ void Viewport::paintGL() {
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
     ViewSettings settings = viewSettings();
-    if (interacting()) settings.samples = 1;
+    settings.interactive = interacting();
     const double ratio = devicePixelRatio();
     const glm::ivec2 size(static_cast<int>(width() * ratio), static_cast<int>(height() * ratio));
     m_renderer->draw(m_camera, settings, overlay(), defaultFramebufferObject(), size);
