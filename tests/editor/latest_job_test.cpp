@@ -2,12 +2,12 @@
 // Background work: only the newest waits, cancelled work ends, hair arrives in order.
 #include "editor/app/latest_job.h"
 
+#include "editor/app/hair_job.h"
+#include "tests/support/shapes.h"
+
 #include <QSignalSpy>
 #include <QTest>
 #include <atomic>
-
-#include "editor/app/hair_job.h"
-#include "tests/support/shapes.h"
 
 using namespace whorl;
 
@@ -92,7 +92,8 @@ private Q_SLOTS:
                 [&](std::shared_ptr<const Strands> strands) { counts.push_back(strands->count()); });
         const Groom groom = testing::groomOn(testing::sphere(12, 18), 60);
         const auto surface = std::make_shared<const Surface>(groom.mesh);
-        for (std::uint32_t hairs = 100; hairs <= 2000; hairs += 100) job.request(groom, surface, hairs, hairs % 200 == 0);
+        for (std::uint32_t hairs = 100; hairs <= 2000; hairs += 100)
+            job.request(groom, surface, hairs, hairs % 200 == 0);
         QTRY_VERIFY(!job.busy());
         QVERIFY(!counts.empty());
         QCOMPARE(counts.back(), std::size_t{2000});

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The laws of the document: preview, commit, revert, merge, undo exact, history limited in bytes.
+#include "core/param/path.h"
 #include "editor/app/document.h"
+#include "tests/support/shapes.h"
 
 #include <QSignalSpy>
 #include <QTest>
 #include <random>
 #include <vector>
 
-#include "core/param/path.h"
-#include "tests/support/shapes.h"
-
 using namespace whorl;
 
 namespace {
 
-Groom start() { return testing::groomOn(testing::sphere(8, 12), 40); }
+Groom start() {
+    return testing::groomOn(testing::sphere(8, 12), 40);
+}
 
 /// One random edit of another part of the groom each time.
 Groom edited(Groom groom, std::mt19937& random) {
@@ -49,7 +50,7 @@ Groom edited(Groom groom, std::mt19937& random) {
 
 }  // namespace
 
-class DocumentTest : public QObject {
+class EditorDocumentTest : public QObject {
     Q_OBJECT
 
 private Q_SLOTS:
@@ -162,15 +163,18 @@ private Q_SLOTS:
                     digests.push_back(testing::groomDigest(document.groom()));
                 }
             }
-            QCOMPARE(testing::groomDigest(document.groom()), digests[static_cast<std::size_t>(document.history().index())]);
+            QCOMPARE(testing::groomDigest(document.groom()),
+                     digests[static_cast<std::size_t>(document.history().index())]);
         }
         while (document.history().canUndo()) {
             document.undo();
-            QCOMPARE(testing::groomDigest(document.groom()), digests[static_cast<std::size_t>(document.history().index())]);
+            QCOMPARE(testing::groomDigest(document.groom()),
+                     digests[static_cast<std::size_t>(document.history().index())]);
         }
         while (document.history().canRedo()) {
             document.redo();
-            QCOMPARE(testing::groomDigest(document.groom()), digests[static_cast<std::size_t>(document.history().index())]);
+            QCOMPARE(testing::groomDigest(document.groom()),
+                     digests[static_cast<std::size_t>(document.history().index())]);
         }
     }
 
@@ -234,5 +238,5 @@ private Q_SLOTS:
     }
 };
 
-QTEST_GUILESS_MAIN(DocumentTest)
-#include "document_test.moc"
+QTEST_GUILESS_MAIN(EditorDocumentTest)
+#include "editor_document_test.moc"

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// A user's way through the real window: open a head, paint, place, comb, cut, undo, redo, save, reopen, export, look.
+#include "core/io/document.h"
+#include "core/io/package.h"
+#include "core/param/path.h"
+#include "editor/app/actions.h"
+#include "editor/app/exports.h"
+#include "editor/app/files.h"
+#include "editor/app/groom_actions.h"
+#include "editor/app/viewport/viewport_area.h"
+#include "editor/app/widgets/message_bar.h"
+#include "tests/editor/window.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+
+using namespace whorl;
+
+namespace {
+
+/// Pixels whose colour differs clearly between two pictures of one size.
+int differingPixels(const QImage& a, const QImage& b) {
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y) {
+        for (int x = 0; x < a.width(); ++x) {
+            const QColor p = a.pixelColor(x, y);
+            const QColor q = b.pixelColor(x, y);
+            count += std::abs(p.red() - q.red()) + std::abs(p.green() - q.green()) + std::abs(p.blue() - q.blue()) > 60;
+        }
+    }
+    return count;
+}
+
+/// Pixels of saturated red: the hair colour that the test chose; skin and background have none.
+int redPixels(const QImage& image) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const QColor p = image.pixelColor(x, y);
+            count += p.red() > 40 && p.red() > 2 * p.green() && p.red() > 2 * p.blue();
+        }
+    }
+    return count;
+}
+
+void keep(const QImage& image, const char* name) {
+    const QString folder = qEnvironmentVariable("WHORL_TEST_PICTURES", QDir::tempPath());
+    image.save(folder + '/' + name);
+    qInfo("picture: %s/%s", qPrintable(folder), name);
+}
+
+}  // namespace
+
+class UserTest : public QObject {
+    Q_OBJECT
+
+    std::filesystem::path m_folder;
+    std::unique_ptr<MainWindow> m_window;
+    QImage m_bald;
+
+    Document& document() { return m_window->document(); }
+    Viewport& view() { return *m_window->viewport(); }
+    QPoint at(double x, double y) {
+        return {static_cast<int>(view().width() * x), static_cast<int>(view().height() * y)};
+    }
+    QImage picture() {
+        QTest::mouseMove(&view(), QPoint(3, 3));
+        testing::settle(*m_window);
+        return view().grabFramebuffer();
+    }
+    QString said() { return m_window->area().messages().sentence(); }
+
+private Q_SLOTS:
+    void initTestCase() {
+        m_folder = testing::scratchFolder("user_test");
+        testing::useScratchSettings(m_folder);
+        m_window = testing::openWindow(m_folder / "journals");
+        QVERIFY(m_window);
+        if (!m_window->viewport() || !m_window->area().problem().isEmpty()) {
+            QSKIP(qPrintable("No viewport: " + m_window->area().problem()));
+        }
+    }
+
+    void welcomeIsThereAndGoes() {
+        auto* welcome = m_window->findChild<QWidget*>("welcome");
+        QVERIFY(welcome && welcome->isVisible());
+        const auto real = testing::realData("heads/makehuman_derived/head_neutral_sub1.glb");
+        std::filesystem::path head;
+        if (real) {
+            head = *real;
+        } else {
+            // Without the data folder a ball stands for the head.
+            head = m_folder / "ball.whorl";
+            Progress progress;
+            QVERIFY(saveDocument(makeGroom(testing::sphere(48, 64)), head, progress).ok());
+        }
+        QVERIFY2(m_window->files().open(head), qPrintable(said()));
+        QVERIFY(document().hasGroom());
+        QVERIFY(!welcome->isVisible());
+        m_bald = picture();
+        QVERIFY(!m_bald.isNull());
+        QCOMPARE(redPixels(m_bald), 0);
+    }
+
+    void paintDensity() {
+        m_window->actions().get("groom.paint_density").trigger();
+        QVERIFY(m_window->state().brush());
+        QVERIFY(m_window->state().brush()->paintsMap);
+        const std::string map = m_window->state().brushOptions().map.name;
+        QVERIFY(document().committed().maps.find(map));
+        BrushOptions options = m_window->state().brushOptions();
+        options.radius = 70.0f;
+        options.strength = 1.0f;
+        options.mirror = true;
+        m_window->state().setBrushOptions(options);
+        const int before = document().history().count();
+        testing::drag(view(), {at(0.42, 0.3), at(0.5, 0.22), at(0.58, 0.3)});
+        testing::drag(view(), {at(0.5, 0.3), at(0.5, 0.15)});
+        QCOMPARE(document().history().count(), before + 2);
+        const Map& painted = *document().committed().maps.find(map);
+        double sum = 0;
+        for (int y = 0; y < painted.height(); y += 4) {
+            for (int x = 0; x < painted.width(); x += 4) sum += static_cast<double>(painted.texel(x, y));
+        }
+        QVERIFY2(sum > 10, qPrintable(QString::number(sum)));
+        QCOMPARE(m_window->viewport()->viewSettings().overlayMap, map);
+    }
+
+    void placeGuides() {
+        QVERIFY2(m_window->groomActions().placeGuides(200, false), qPrintable(said()));
+        const auto count = document().committed().guides.count();
+        QVERIFY2(count > 150 && count <= 200, qPrintable(QString::number(count)));
+        Groom red = document().committed();
+        QVERIFY(setGroomValue(red, "groups/hair/colour/root", std::string("#c01010")).ok());
+        QVERIFY(setGroomValue(red, "groups/hair/colour/tip", std::string("#ff2020")).ok());
+        document().edit(std::move(red), "Red hair");
+        QVERIFY(testing::settle(*m_window));
+        QVERIFY(view().strands() && view().strands()->count() > 1000);
+    }
+
+    void comb() {
+        m_window->actions().get("tool.comb").trigger();
+        const std::uint64_t before = testing::groomDigest(document().committed());
+        const int steps = document().history().count();
+        testing::drag(view(), {at(0.45, 0.25), at(0.6, 0.35)});
+        QCOMPARE(document().history().count(), steps + 1);
+        QVERIFY(testing::groomDigest(document().committed()) != before);
+        QVERIFY(checkGroom(document().committed()).empty());
+    }
+
+    void hairFollowsWhileCombing() {
+        QVERIFY(testing::settle(*m_window));
+        const auto before = view().strands();
+        testing::drag(view(), {at(0.55, 0.2), at(0.45, 0.3)}, {}, Qt::LeftButton, false);
+        QVERIFY(document().previewing());
+        QTRY_VERIFY(view().strands() != before);
+        QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.45, 0.3));
+        QVERIFY(!document().previewing());
+    }
+
+    void escapeDropsAStroke() {
+        const std::uint64_t before = testing::groomDigest(document().committed());
+        const int steps = document().history().count();
+        testing::drag(view(), {at(0.45, 0.25), at(0.6, 0.35)}, {}, Qt::LeftButton, false);
+        QVERIFY(document().previewing());
+        QTest::keyClick(&view(), Qt::Key_Escape);
+        QVERIFY(!document().previewing());
+        QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.6, 0.35));
+        QCOMPARE(document().history().count(), steps);
+        QCOMPARE(testing::groomDigest(document().groom()), before);
+    }
+
+    void cut() {
+        m_window->actions().get("tool.scissors").trigger();
+        const int steps = document().history().count();
+        testing::drag(view(), {at(0.3, 0.2), at(0.7, 0.2)});
+        QCOMPARE(document().history().count(), steps + 1);
+        QVERIFY(checkGroom(document().committed()).empty());
+    }
+
+    void undoAllRedoAll() {
+        std::vector<std::uint64_t> digests{testing::groomDigest(document().committed())};
+        while (m_window->actions().get("edit.undo").isEnabled()) {
+            m_window->actions().get("edit.undo").trigger();
+            digests.push_back(testing::groomDigest(document().committed()));
+        }
+        QVERIFY(digests.size() > 6);
+        QVERIFY(document().committed().guides.empty());
+        while (m_window->actions().get("edit.redo").isEnabled()) {
+            digests.pop_back();
+            m_window->actions().get("edit.redo").trigger();
+            QCOMPARE(testing::groomDigest(document().committed()), digests.back());
+        }
+        QCOMPARE(digests.size(), std::size_t{1});
+    }
+
+    void picturesShowHair() {
+        m_window->actions().get("tool.look").trigger();
+        ViewOptions options = m_window->state().viewOptions();
+        options.showGuides = false;
+        m_window->state().setViewOptions(options);
+        const QImage hairy = picture();
+        const int red = redPixels(hairy);
+        const int differing = differingPixels(m_bald, hairy);
+        const bool good = red > 1500 && differing > 2000;
+        if (!good || !qEnvironmentVariableIsEmpty("WHORL_TEST_PICTURES")) {
+            keep(m_bald, "user_test_bald.png");
+            keep(hairy, "user_test_hair.png");
+            keep(m_window->grab().toImage(), "user_test_window.png");
+        }
+        QVERIFY2(good, qPrintable(QString("%1 red, %2 differing").arg(red).arg(differing)));
+    }
+
+    void saveAndReopen() {
+        const std::uint64_t before = testing::groomDigest(document().committed());
+        const std::filesystem::path file = m_folder / "head.whorl";
+        QVERIFY(!document().clean());
+        QVERIFY2(m_window->files().saveTo(file), qPrintable(said()));
+        QVERIFY(document().clean());
+        QVERIFY(m_window->windowTitle().contains("head.whorl"));
+        QVERIFY2(m_window->files().open(file), qPrintable(said()));
+        QCOMPARE(testing::groomDigest(document().committed()), before);
+        QCOMPARE(document().history().count(), 0);
+    }
+
+    void exportPackage() {
+        const std::filesystem::path folder = m_folder / "head.groom";
+        QVERIFY2(m_window->exports().exportPackage(folder, 3), qPrintable(said()));
+        Progress progress;
+        const Result<Package> package = openPackage(folder, progress);
+        QVERIFY2(package.ok(), package.ok() ? "" : package.error().message.c_str());
+        QCOMPARE(package->parts.size(), std::size_t{3});
+        const Result<std::uint64_t> digest = hairDigest(document().committed(), 1, std::nullopt, progress);
+        QVERIFY(digest.ok());
+        QCOMPARE(package->digest, *digest);
+    }
+
+    void exportHairAndPicture() {
+        const std::filesystem::path hair = m_folder / "head.ply";
+        QVERIFY2(m_window->exports().exportHair(hair), qPrintable(said()));
+        QVERIFY(std::filesystem::file_size(hair) > 100000);
+        const std::filesystem::path image = m_folder / "head.png";
+        QVERIFY2(m_window->exports().renderPicture(image, 400, 300), qPrintable(said()));
+        const QImage read(textOf(image));
+        QCOMPARE(read.size(), QSize(400, 300));
+        QVERIFY(redPixels(read) > 100);
+        QVERIFY(!m_window->exports().exportHair(m_folder / "no_such_folder" / "head.ply"));
+        QVERIFY(said().contains("no_such_folder"));
+    }
+
+    void cleanupTestCase() { m_window.reset(); }
+};
+
+QTEST_MAIN(UserTest)
+#include "user_test.moc"

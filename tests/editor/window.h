@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real window for tests: own settings, own journals, a pointer that draws strokes.
+#pragma once
+
+#include "editor/app/document.h"
+#include "editor/app/main_window.h"
+#include "editor/app/viewport/viewport.h"
+#include "tests/support/shapes.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QMouseEvent>
+#include <QPoint>
+#include <QSettings>
+#include <QTest>
+#include <filesystem>
+#include <memory>
+
+namespace whorl::testing {
+
+/// Call first in initTestCase: settings of tests never touch those of the artist.
+inline void useScratchSettings(const std::filesystem::path& folder) {
+    QApplication::setOrganizationName("whorl-test");
+    QApplication::setApplicationName("whorl-test");
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, textOf(folder / "settings"));
+    QSettings().clear();
+}
+
+/// A shown window; empty pointer when the platform never shows it.
+inline std::unique_ptr<MainWindow> openWindow(const std::filesystem::path& journals) {
+    auto window = std::make_unique<MainWindow>(journals);
+    window->resize(1280, 800);
+    window->show();
+    return QTest::qWaitForWindowExposed(window.get()) ? std::move(window) : nullptr;
+}
+
+/// Waits until nothing is generated and the picture is the final one.
+inline bool settle(MainWindow& window, int milliseconds = 20000) {
+    QTest::qWait(30);
+    return !window.viewport() || QTest::qWaitFor([&] { return window.viewport()->settled(); }, milliseconds);
+}
+
+/// A press, a drag through `points`, a release.
+inline void drag(QWidget& widget, const QList<QPoint>& points, Qt::KeyboardModifiers modifiers = {},
+                 Qt::MouseButton button = Qt::LeftButton, bool release = true) {
+    QTest::mouseMove(&widget, points.front());
+    QTest::mousePress(&widget, button, modifiers, points.front());
+    for (qsizetype i = 1; i < points.size(); ++i) {
+        constexpr int steps = 6;
+        for (int s = 1; s <= steps; ++s) {
+            const QPoint p = points[i - 1] + (points[i] - points[i - 1]) * s / steps;
+            QMouseEvent move(QEvent::MouseMove, p, widget.mapToGlobal(p), Qt::NoButton, button, modifiers);
+            QApplication::sendEvent(&widget, &move);
+        }
+    }
+    if (release) QTest::mouseRelease(&widget, button, modifiers, points.back());
+}
+
+}  // namespace whorl::testing
