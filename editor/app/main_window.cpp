@@ -130,7 +130,9 @@ void MainWindow::makePanels() {
     const auto dock = [&](const char* name, const QString& title, QWidget* panel) {
         auto* widget = new QDockWidget(title, this);
         widget->setObjectName(name);
-        widget->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
+        widget->setFeatures(QDockWidget::NoDockWidgetFeatures);
+        // The tabs and the panels themselves say what they are.
+        widget->setTitleBarWidget(new QWidget(widget));
         widget->setWidget(panel);
         panel->setMinimumWidth(330);
         addDockWidget(Qt::RightDockWidgetArea, widget);

@@ -11,7 +11,11 @@
 #include "editor/app/widgets/message_bar.h"
 #include "tests/editor/window.h"
 
-#include <QSignalSpy>
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
 #include <QTest>
 #include <cmath>
 
@@ -69,6 +73,11 @@ class UserTest : public QObject {
         testing::settle(*m_window);
         return view().grabFramebuffer();
     }
+    void keepWindow(const char* name) {
+        if (qEnvironmentVariableIsEmpty("WHORL_TEST_PICTURES")) return;
+        testing::settle(*m_window);
+        keep(m_window->grab().toImage(), name);
+    }
     QString said() { return m_window->area().messages().sentence(); }
 
 private Q_SLOTS:
@@ -110,14 +119,15 @@ private Q_SLOTS:
         const std::string map = m_window->state().brushOptions().map.name;
         QVERIFY(document().committed().maps.find(map));
         BrushOptions options = m_window->state().brushOptions();
-        options.radius = 70.0f;
+        options.radius = 90.0f;
         options.strength = 1.0f;
         options.mirror = true;
         m_window->state().setBrushOptions(options);
         const int before = document().history().count();
-        testing::drag(view(), {at(0.42, 0.3), at(0.5, 0.22), at(0.58, 0.3)});
-        testing::drag(view(), {at(0.5, 0.3), at(0.5, 0.15)});
+        testing::drag(view(), {at(0.36, 0.3), at(0.42, 0.2), at(0.5, 0.15)});
+        testing::drag(view(), {at(0.5, 0.25), at(0.5, 0.1)});
         QCOMPARE(document().history().count(), before + 2);
+        keepWindow("user_test_paint.png");
         const Map& painted = *document().committed().maps.find(map);
         double sum = 0;
         for (int y = 0; y < painted.height(); y += 4) {
@@ -134,7 +144,9 @@ private Q_SLOTS:
         Groom red = document().committed();
         QVERIFY(setGroomValue(red, "groups/hair/colour/root", std::string("#c01010")).ok());
         QVERIFY(setGroomValue(red, "groups/hair/colour/tip", std::string("#ff2020")).ok());
-        document().edit(std::move(red), "Red hair");
+        QVERIFY(setGroomValue(red, "groups/hair/general/root_thickness", 0.0003).ok());
+        QVERIFY(setGroomValue(red, "groups/hair/general/tip_thickness", 0.0002).ok());
+        document().edit(std::move(red), "Red, thick hair");
         QVERIFY(testing::settle(*m_window));
         QVERIFY(view().strands() && view().strands()->count() > 1000);
     }
@@ -157,6 +169,7 @@ private Q_SLOTS:
         QTRY_VERIFY(view().strands() != before);
         QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.45, 0.3));
         QVERIFY(!document().previewing());
+        keepWindow("user_test_comb.png");
     }
 
     void escapeDropsAStroke() {
@@ -174,7 +187,10 @@ private Q_SLOTS:
     void cut() {
         m_window->actions().get("tool.scissors").trigger();
         const int steps = document().history().count();
-        testing::drag(view(), {at(0.3, 0.2), at(0.7, 0.2)});
+        BrushOptions options = m_window->state().brushOptions();
+        options.radius = 30.0f;
+        m_window->state().setBrushOptions(options);
+        testing::drag(view(), {at(0.3, 0.35), at(0.36, 0.15)});
         QCOMPARE(document().history().count(), steps + 1);
         QVERIFY(checkGroom(document().committed()).empty());
     }
@@ -210,6 +226,30 @@ private Q_SLOTS:
             keep(m_window->grab().toImage(), "user_test_window.png");
         }
         QVERIFY2(good, qPrintable(QString("%1 red, %2 differing").arg(red).arg(differing)));
+    }
+
+    void nothingIsClipped() {
+        m_window->actions().get("tool.comb").trigger();
+        for (QDockWidget* dock : m_window->findChildren<QDockWidget*>()) {
+            dock->raise();
+            QTest::qWait(50);
+            keepWindow(qPrintable("user_test_" + dock->objectName() + ".png"));
+            for (const QWidget* widget : dock->findChildren<QWidget*>()) {
+                if (!widget->isVisible() || widget->objectName().startsWith("qt_")) continue;
+                const bool control = qobject_cast<const QAbstractButton*>(widget) ||
+                                     qobject_cast<const QAbstractSpinBox*>(widget) ||
+                                     qobject_cast<const QComboBox*>(widget) || qobject_cast<const QLabel*>(widget);
+                if (!control) continue;
+                const QString name =
+                    dock->objectName() + ": " + widget->metaObject()->className() + ' ' + widget->objectName();
+                const auto* label = qobject_cast<const QLabel*>(widget);
+                if (!label || !label->wordWrap()) {
+                    QVERIFY2(widget->width() >= widget->minimumSizeHint().width(), qPrintable(name));
+                }
+                const QRect inParent(widget->mapTo(widget->parentWidget(), QPoint()), widget->size());
+                QVERIFY2(widget->parentWidget()->rect().adjusted(0, 0, 1, 1).contains(inParent), qPrintable(name));
+            }
+        }
     }
 
     void saveAndReopen() {

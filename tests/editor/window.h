@@ -4,6 +4,7 @@
 
 #include "editor/app/document.h"
 #include "editor/app/main_window.h"
+#include "editor/app/theme.h"
 #include "editor/app/viewport/viewport.h"
 #include "tests/support/shapes.h"
 
@@ -29,9 +30,12 @@ inline void useScratchSettings(const std::filesystem::path& folder) {
 
 /// A shown window; empty pointer when the platform never shows it.
 inline std::unique_ptr<MainWindow> openWindow(const std::filesystem::path& journals) {
+    applyTheme(*qApp, Theme::Dark);
     auto window = std::make_unique<MainWindow>(journals);
     window->resize(1280, 800);
     window->show();
+    // Without a window manager nobody else makes it active, and shortcuts need that.
+    QApplication::setActiveWindow(window.get());
     return QTest::qWaitForWindowExposed(window.get()) ? std::move(window) : nullptr;
 }
 

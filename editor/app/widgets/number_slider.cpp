@@ -45,6 +45,13 @@ QString NumberBox::textFromValue(double value) const {
     return text == "-0" ? "0" : text;
 }
 
+QSize NumberBox::sizeHint() const {
+    QSize size = QDoubleSpinBox::sizeHint();
+    const int buttons = buttonSymbols() == NoButtons ? 0 : 20;
+    size.setWidth(fontMetrics().horizontalAdvance(suffix().isEmpty() ? "0000000" : "0.0000 mm") + 12 + buttons);
+    return size;
+}
+
 void NumberBox::wheelEvent(QWheelEvent* event) {
     // A panel that scrolls under the pointer must not change numbers.
     hasFocus() ? QDoubleSpinBox::wheelEvent(event) : event->ignore();
@@ -63,7 +70,7 @@ NumberSlider::NumberSlider(const ParamInfo& info, bool integer, QWidget* parent)
     layout->addWidget(m_slider, 1);
     layout->addWidget(m_box);
     m_box->declare(info, integer);
-    m_box->setFixedWidth(88);
+    m_box->setFixedWidth(m_box->fontMetrics().horizontalAdvance("0.0000 mm") + 32);
     m_slider->setRange(0, steps);
     m_slider->setSingleStep(steps / 100);
     m_slider->setPageStep(steps / 10);

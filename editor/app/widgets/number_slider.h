@@ -19,6 +19,9 @@ public:
     /// Range, unit and steps of a parameter; `integer` for whole numbers.
     void declare(const ParamInfo& info, bool integer);
     QString textFromValue(double value) const override;
+    /// Wide enough for what artists type; the largest number allowed may be far wider.
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override { return sizeHint(); }
 
 protected:
     void wheelEvent(QWheelEvent* event) override;
