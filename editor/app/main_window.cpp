@@ -134,7 +134,7 @@ void MainWindow::makePanels() {
         // The tabs and the panels themselves say what they are.
         widget->setTitleBarWidget(new QWidget(widget));
         widget->setWidget(panel);
-        panel->setMinimumWidth(330);
+        panel->setMinimumWidth(380);
         addDockWidget(Qt::RightDockWidgetArea, widget);
         return widget;
     };
@@ -150,7 +150,7 @@ void MainWindow::makePanels() {
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     groom->raise();
     resizeDocks({tool, groom}, {330, 520}, Qt::Vertical);
-    resizeDocks({tool}, {370}, Qt::Horizontal);
+    resizeDocks({tool}, {390}, Qt::Horizontal);
 }
 
 void MainWindow::makeStatusBar() {

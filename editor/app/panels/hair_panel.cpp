@@ -29,7 +29,7 @@ HairPanel::HairPanel(PanelContext context, QWidget* parent)
     m_list->setAccessibleName(tr("Groups"));
     m_list->setToolTip(tr("Groups of hair; double click to rename. The forms below belong to the chosen one."));
     m_list->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-    m_list->setMaximumHeight(92);
+    m_list->setMaximumHeight(84);
     auto* addButton = new QToolButton(this);
     addButton->setObjectName("group_add");
     addButton->setAccessibleName(tr("Add a group"));

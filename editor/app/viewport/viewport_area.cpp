@@ -6,12 +6,14 @@
 #include "editor/app/viewport/viewport.h"
 #include "editor/app/widgets/message_bar.h"
 
+#include <QEvent>
 #include <QLabel>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QPushButton>
 #include <QStackedLayout>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace whorl {
 namespace {
@@ -54,7 +56,6 @@ ViewportArea::ViewportArea(Document& document, EditorState& state, Actions& acti
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(m_messages);
     layout->addWidget(m_stack, 1);
     m_problemPage->setObjectName("no_gl");
     m_problemPage->setAccessibleName(tr("Why nothing is drawn"));
@@ -74,6 +75,7 @@ ViewportArea::ViewportArea(Document& document, EditorState& state, Actions& acti
         showProblem(problem);
     }
     m_welcome = makeWelcome(actions);
+    m_messages->installEventFilter(this);
     connect(&m_document, &Document::changed, this, [this] { m_welcome->setVisible(!m_document.hasGroom()); });
 }
 
@@ -127,6 +129,19 @@ QWidget* ViewportArea::makeWelcome(Actions& actions) {
     return welcome;
 }
 
+bool ViewportArea::eventFilter(QObject* watched, QEvent* event) {
+    // The bar lies over the view: in the layout it would move the picture under the artist's hand.
+    if (watched == m_messages && (event->type() == QEvent::Show || event->type() == QEvent::LayoutRequest))
+        placeMessages();
+    return QWidget::eventFilter(watched, event);
+}
+
+void ViewportArea::placeMessages() {
+    const int wide = width();
+    m_messages->setGeometry(0, 0, wide, std::max(m_messages->heightForWidth(wide), m_messages->sizeHint().height()));
+    m_messages->raise();
+}
+
 void ViewportArea::placeWelcome() {
     // Over the viewport, which stays visible behind it.
     m_welcome->setGeometry(m_stack->rect());
@@ -138,6 +153,7 @@ void ViewportArea::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     layout()->activate();
     placeWelcome();
+    placeMessages();
 }
 
 }  // namespace whorl

@@ -30,11 +30,13 @@ public:
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     void showProblem(const QString& sentence);
     QWidget* makeWelcome(Actions& actions);
     void placeWelcome();
+    void placeMessages();
 
     Document& m_document;
     MessageBar* m_messages;

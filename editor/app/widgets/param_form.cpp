@@ -27,9 +27,6 @@ QToolButton* smallButton(const char* picture, QWidget* parent) {
     button->setIconSize({14, 14});
     button->setAutoRaise(true);
     button->setFixedSize(22, 22);
-    QSizePolicy policy = button->sizePolicy();
-    policy.setRetainSizeWhenHidden(true);
-    button->setSizePolicy(policy);
     return button;
 }
 
@@ -64,7 +61,8 @@ void ParamForm::addRow(QGridLayout& grid, std::size_t index, const ParamRef& par
         row.label = new QLabel(qtext(param.info.label), this);
         row.label->setToolTip(tip);
         row.label->setBuddy(row.editor);
-        row.label->setMinimumWidth(96);
+        // One width for all forms, so that their sliders stand in one line.
+        row.label->setMinimumWidth(fontMetrics().horizontalAdvance("Brightness variation") + 4);
         grid.addWidget(row.label, line, 0);
         grid.addWidget(row.editor, line, 1);
     }
@@ -76,7 +74,9 @@ void ParamForm::addRow(QGridLayout& grid, std::size_t index, const ParamRef& par
         row.map->setCheckable(true);
         row.map->setMenu(new QMenu(row.map));
         // The arrow of the menu would cover the small picture.
-        row.map->setStyleSheet("QToolButton::menu-indicator { image: none; }");
+        row.map->setStyleSheet(
+            "QToolButton::menu-indicator { image: none; }"
+            "QToolButton:checked { background: palette(highlight); border-radius: 3px; }");
         connect(row.map->menu(), &QMenu::aboutToShow, this, [this, index] { fillMapMenu(index); });
         grid.addWidget(row.map, line, 2);
     }
@@ -115,6 +115,10 @@ void ParamForm::refresh() {
                                                      : tr("Multiply by a map"));
         }
         const bool differs = paramValue(values[i]) != paramValue(defaults[i]);
+        // Hidden while there is nothing to reset it keeps its place, so that sliders do not jump.
+        QSizePolicy policy = row.reset->sizePolicy();
+        policy.setRetainSizeWhenHidden(shown);
+        row.reset->setSizePolicy(policy);
         row.reset->setVisible(shown && differs);
     }
 }
