@@ -47,8 +47,9 @@ QString NumberBox::textFromValue(double value) const {
 
 QSize NumberBox::sizeHint() const {
     QSize size = QDoubleSpinBox::sizeHint();
-    const int buttons = buttonSymbols() == NoButtons ? 0 : 20;
-    size.setWidth(fontMetrics().horizontalAdvance(suffix().isEmpty() ? "0000000" : "0.0000 mm") + 12 + buttons);
+    // Boxes without buttons stand three in a row.
+    const bool small = buttonSymbols() == NoButtons;
+    size.setWidth(fontMetrics().horizontalAdvance(small ? "00000" : "0.0000 mm") + (small ? 10 : 32));
     return size;
 }
 
@@ -70,7 +71,7 @@ NumberSlider::NumberSlider(const ParamInfo& info, bool integer, QWidget* parent)
     layout->addWidget(m_slider, 1);
     layout->addWidget(m_box);
     m_box->declare(info, integer);
-    m_box->setFixedWidth(m_box->fontMetrics().horizontalAdvance("0.0000 mm") + 32);
+    m_box->setFixedWidth(m_box->sizeHint().width());
     m_slider->setRange(0, steps);
     m_slider->setSingleStep(steps / 100);
     m_slider->setPageStep(steps / 10);

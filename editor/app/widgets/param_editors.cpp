@@ -67,7 +67,6 @@ public:
             box->declare(param.info, false);
             box->setSuffix({});
             box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-            box->setMinimumWidth(44);
             name(*box, param, axis == 0 ? "x" : axis == 1 ? "y" : "z");
             layout->addWidget(box, 1);
             connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
