@@ -49,9 +49,7 @@ Result<Groom> creatureGroom(Progress& progress) {
     groom.maps.set("fur_length", mapFrom(creatureLength(mapSize)));
     groom.maps.set("fur_colour", mapFrom(creatureFurColour(mapSize)));
     groom.maps.set("skin", mapFrom(creatureSkin(mapSize)));
-    for (std::size_t i = 0; i < groom.mesh->parts.size(); ++i) {
-        if (groom.growsHair(static_cast<std::uint32_t>(i))) groom.mesh.edit().parts[i].texture = "skin";
-    }
+    for (MeshPart& part : groom.mesh.edit().parts) part.texture = "skin";
     groom.groups = Cow<std::vector<Group>>({{"fur", fur()}});
     CountParams& counts = groom.counts.edit();
     counts.guides = 1500;
@@ -67,7 +65,7 @@ Result<Groom> creatureGroom(Progress& progress) {
                     [&](const glm::vec3& root) {
                         const auto hit = surface.query.nearest(root);
                         const float share = hit ? lengths->sample(uvAt(surface.mesh(), hit->point)) : 1.0f;
-                        return 0.003f + 0.055f * share;
+                        return 0.0045f + 0.054f * share;
                     },
                 .flow = furFlow,
                 .lift = [](const glm::vec3&) { return 0.68f; },

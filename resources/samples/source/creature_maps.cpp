@@ -92,7 +92,7 @@ ScalarImage creatureLength(int size) {
         length = mix(length, 0.28f, m.ear);
         length = mix(length, 0.14f, m.legs);
         const float feet = smoothstep(0.035f, 0.020f, p.y) * (1.0f - m.tail);
-        length = mix(length, 0.12f, feet * m.legs);
+        length = mix(length, 0.17f, feet * m.legs);
         length = mix(length, 0.70f + 0.30f * gauss(m.along - 0.65f, 0.25f), m.tail * smoothstep(0.02f, 0.25f, m.along));
         return length;
     });
@@ -103,13 +103,19 @@ ColourImage creatureSkin(int size) {
         if (point.part == kCreatureEyes) {
             // Dark amber iris around a black pupil, on the side the eye looks to.
             const vec3 p(std::abs(point.position.x), point.position.y, point.position.z);
-            const float away = std::acos(std::clamp(glm::dot(glm::normalize(creatureHeadSpace(p) - kCreatureEye),
-                                                             glm::normalize(vec3(0.36f, 0.06f, 0.93f))),
-                                                    -1.0f, 1.0f));
+            const vec3 side = glm::normalize(creatureHeadSpace(p) - kCreatureEye);
+            const auto angleTo = [&](const vec3& direction) {
+                return std::acos(std::clamp(glm::dot(side, glm::normalize(direction)), -1.0f, 1.0f));
+            };
+            const float away = angleTo(vec3(0.36f, 0.06f, 0.93f));
             const vec3 iris =
                 mix(vec3(0.16f, 0.060f, 0.012f), vec3(0.045f, 0.016f, 0.006f), smoothstep(0.45f, 0.80f, away));
-            return mix(mix(vec3(0.004f), iris, smoothstep(0.40f, 0.46f, away)), vec3(0.010f, 0.007f, 0.006f),
-                       smoothstep(0.80f, 0.90f, away));
+            const vec3 eye = mix(mix(vec3(0.004f), iris, smoothstep(0.40f, 0.46f, away)), vec3(0.010f, 0.007f, 0.006f),
+                                 smoothstep(0.80f, 0.90f, away));
+            // The glint of a window and a faint one below make the eyes alive in any light.
+            const float glint = smoothstep(0.17f, 0.12f, angleTo(vec3(0.20f, 0.48f, 0.85f)));
+            const float lower = 0.25f * smoothstep(0.13f, 0.06f, angleTo(vec3(0.50f, -0.30f, 0.80f)));
+            return mix(eye, vec3(1.0f), std::max(glint, lower));
         }
         if (point.part == kCreatureNosePart) {
             return vec3(0.020f, 0.014f, 0.013f);
