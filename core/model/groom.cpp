@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <set>
 
 namespace whorl {
@@ -103,6 +104,17 @@ void checkGroups(const Groom& groom, Problems& problems) {
     for (const MeshPart& part : groom.mesh->parts) checkMap("The texture of part " + part.name, part.texture);
 }
 
+float largestSide(const SurfaceMesh& mesh) {
+    if (mesh.positions.empty()) return 0.0f;
+    glm::vec3 low = mesh.positions[0], high = low;
+    for (const glm::vec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 bool Groom::sameAs(const Groom& other) const {
@@ -135,6 +147,17 @@ bool Groom::growsHair(std::uint32_t part) const {
 
 Groom makeGroom(SurfaceMesh mesh) {
     Groom groom;
+    const float size = largestSide(mesh);
+    if (size > 0.0f && (size < 0.1f || size > 0.6f)) {
+        const float factor = size / 0.35f;
+        HairParams& params = groom.groups.edit()[0].params;
+        const auto scaled = [&](float length) { return std::clamp(length * factor, 1e-9f, 0.1f); };
+        params.general.rootThickness.value = scaled(params.general.rootThickness.value);
+        params.general.tipThickness.value = scaled(params.general.tipThickness.value);
+        for (glm::vec3* frequency : {&params.frizz.frequency.value, &params.kink.frequency.value}) {
+            *frequency = glm::vec3(std::clamp(frequency->x / factor, 1e-3f, 1e5f));
+        }
+    }
     groom.partSettings = Cow<std::vector<PartSettings>>(std::vector<PartSettings>(mesh.parts.size()));
     groom.mesh = Cow<SurfaceMesh>(std::move(mesh));
     return groom;

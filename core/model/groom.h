@@ -43,7 +43,9 @@ struct Groom {
     bool growsHair(std::uint32_t part) const;
 };
 
-/// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides.
+/// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides. Thicknesses and noise fit a head of a
+/// third of a metre; for larger and smaller meshes they are scaled, because many files are in decimetres or centimetres
+/// and hair of a tenth of a millimetre would not be seen on them.
 Groom makeGroom(SurfaceMesh mesh);
 
 /// What an opened file or an edit did not do quite as asked, one sentence each, for the artist.

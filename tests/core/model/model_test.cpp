@@ -177,6 +177,19 @@ private Q_SLOTS:
         QCOMPARE(checkGroom(groom).size(), std::size_t{3});
     }
 
+    void hairFitsTheSizeOfTheMesh() {
+        const auto thickness = [](float size) {
+            SurfaceMesh mesh;
+            mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+            return (*makeGroom(mesh).groups)[0].params.general.rootThickness.value;
+        };
+        const float usual = GeneralParams().rootThickness.value;
+        QCOMPARE(thickness(0.25f), usual);
+        QCOMPARE(thickness(3.5f), usual * 10.0f);
+        QCOMPARE(thickness(0.035f), usual * 0.1f);
+        QCOMPARE(thickness(1e9f), 0.1f);
+    }
+
     void equalEmptyGroomsShareEverything() { QVERIFY(Groom().maps.sameAs(Groom().maps)); }
 };
 
