@@ -63,6 +63,7 @@ QTabBar::tab:selected { color: palette(text); border-bottom: 2px solid palette(h
 QTabBar::tab:hover { color: palette(text); }
 QStatusBar::item { border: none; }
 QScrollArea { border: none; }
+QListView::item, QTreeView::item { padding: 3px; }
 QMenu { padding: 4px; }
 QMenu::item { padding: 5px 26px 5px 14px; border-radius: 3px; }
 QMenu::item:selected { background: palette(highlight); color: palette(highlighted-text); }

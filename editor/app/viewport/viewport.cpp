@@ -11,6 +11,7 @@ namespace {
 
 constexpr int stillMilliseconds = 180;
 constexpr std::uint32_t interactiveHairs = 10000;
+constexpr int frameMilliseconds = 16;
 
 /// True when hair generated from `a` can differ from that of `b`.
 bool hairMayDiffer(const Groom& a, const Groom& b) {
@@ -40,6 +41,9 @@ Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
         requestHair();
         update();
     });
+    m_frame.setSingleShot(true);
+    m_frame.setInterval(frameMilliseconds);
+    connect(&m_frame, &QTimer::timeout, this, qOverload<>(&QWidget::update));
     connect(&m_document, &Document::changed, this, &Viewport::documentChanged);
     connect(&m_state, &EditorState::changed, this, [this] {
         setCursor(m_state.brush() ? Qt::CrossCursor : Qt::ArrowCursor);
@@ -48,6 +52,7 @@ Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
     });
     connect(&m_hair, &HairJob::delivered, this, [this](std::shared_ptr<const Strands> strands) {
         m_strands = std::move(strands);
+        m_frame.stop();
         update();
     });
     connect(&m_hair, &HairJob::failed, this, &Viewport::said);
@@ -125,7 +130,13 @@ void Viewport::documentChanged() {
     requestHair();
     if (otherMesh) frameAll();
     if (m_document.previewing()) m_settle.start();
-    update();
+    // Hair that is about to arrive is worth a frame's wait: guides and hair then move in one picture, not in two.
+    const bool soon = m_document.previewing() && m_hair.busy() && m_hair.milliseconds() < frameMilliseconds;
+    if (!soon) {
+        update();
+    } else if (!m_frame.isActive()) {
+        m_frame.start();
+    }
 }
 
 void Viewport::requestHair() {

@@ -89,6 +89,7 @@ private:
     std::shared_ptr<const Strands> m_strands;
     Groom m_seen;  // what the last request for hair was made from
     bool m_seenInteractive = false;
+    QTimer m_frame;   // draws when hair that was about to arrive is late
     QTimer m_settle;  // runs out when the artist has been still for a moment
     glm::vec2 m_pixel{0.0f};
     bool m_inside = false;

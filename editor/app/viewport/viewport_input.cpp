@@ -48,7 +48,7 @@ void Viewport::move(glm::vec2 pixel, Qt::KeyboardModifiers modifiers, float pres
     } else if (m_stroke.active()) {
         m_stroke.move({pixel, pressure});
     }
-    if (m_state.brush()) update();
+    if (m_state.brush() && !m_frame.isActive()) update();
 }
 
 void Viewport::release() {
