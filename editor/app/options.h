@@ -106,7 +106,9 @@ struct ViewOptions {
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
         visit(ParamInfo{.id = "show_hair", .label = "Hair", .tip = "Shows the hair."}, self.showHair);
-        visit(ParamInfo{.id = "show_guides", .label = "Guides", .tip = "Shows the guides over the hair."},
+        visit(ParamInfo{.id = "show_guides",
+                        .label = "Guides",
+                        .tip = "Shows the guides over the hair while a guide tool is picked."},
               self.showGuides);
         visit(ParamInfo{.id = "show_mesh", .label = "Model", .tip = "Shows the model."}, self.showMesh);
         visit(ParamInfo{.id = "show_texture", .label = "Texture", .tip = "Shows the model's own texture."},

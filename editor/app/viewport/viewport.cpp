@@ -98,7 +98,10 @@ void Viewport::paintGL() {
 
 ViewSettings Viewport::viewSettings() const {
     ViewSettings settings = m_state.viewOptions().settings();
-    if (const BrushInfo* brush = m_state.brush(); brush && brush->paintsMap) {
+    const BrushInfo* brush = m_state.brush();
+    // Looking around and painting, the artist wants to see the hair and the map.
+    settings.showGuides = settings.showGuides && brush && !brush->paintsMap;
+    if (brush && brush->paintsMap) {
         const std::string& map = m_state.brushOptions().map.name;
         if (m_document.groom().maps.find(map)) settings.overlayMap = map;
     }
@@ -128,7 +131,10 @@ void Viewport::documentChanged() {
     if (m_stroke.active() && !m_document.previewing()) m_stroke.drop();
     const bool otherMesh = !m_document.groom().mesh.sameAs(m_seen.mesh);
     requestHair();
-    if (otherMesh) frameAll();
+    if (otherMesh) {
+        lookFrom("three-quarter");
+        frameAll();
+    }
     if (m_document.previewing()) m_settle.start();
     // Hair that is about to arrive is worth a frame's wait: guides and hair then move in one picture, not in two.
     const bool soon = m_document.previewing() && m_hair.busy() && m_hair.milliseconds() < frameMilliseconds;
@@ -142,7 +148,9 @@ void Viewport::documentChanged() {
 void Viewport::requestHair() {
     const Groom& groom = m_document.groom();
     const std::uint32_t wanted = static_cast<std::uint32_t>(std::max(groom.counts->shownHairs, 0));
-    const bool live = interacting() && wanted > interactiveHairs;
+    // Fewer hairs follow a stroke; turning the view keeps them all, so that none comes and goes.
+    const bool live = (m_document.previewing() || m_settle.isActive()) && !m_navigation.active() &&
+                      wanted > interactiveHairs && m_state.brush();
     if (!hairMayDiffer(groom, m_seen) && live == m_seenInteractive) return;
     const bool reseeded = !groom.mesh.sameAs(m_seen.mesh);
     m_seen = groom;
