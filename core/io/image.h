@@ -17,7 +17,8 @@ enum class ImageUse { Data, Colour };
 /// Reads PNG, EXR, TIFF, JPEG, TGA, BMP, PFM or HDR. Data: one channel (mean of the colours, or the only channel); 8
 /// and 16 bit stay, others become float. Colour: three channels; integer formats are sRGB. At most 16,384 x 16,384 and
 /// 512 MiB decoded; the header is checked first. The child process (whorl-image-worker, beside the running program or
-/// in $WHORL_IMAGE_WORKER) may take 2 GiB and 20 s. Not-a-number becomes 0, infinite and negative texels are clamped;
+/// in $WHORL_IMAGE_WORKER) may take 2 GiB and 20 s, less than a second of it for the header; it leaves out the metadata
+/// of PNG and JPEG. Not-a-number becomes 0, infinite and negative texels are clamped;
 /// `repairs` (may be null) then gets a sentence.
 Result<Map> readImage(const std::filesystem::path& file, ImageUse use, std::vector<std::string>* repairs = nullptr);
 

@@ -157,6 +157,9 @@ Error ImageProcess::whyItDied() {
     if (ended > 0 && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
         return {"reading it took more than 20 seconds"};
     }
+    if (ended > 0 && WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) {
+        return {"the metadata in its header takes too long to read"};
+    }
     return {"it is damaged so badly that the image library failed on it"};
 }
 

@@ -14,6 +14,8 @@ constexpr std::uint32_t maxSize = 16384;
 constexpr std::uint64_t maxDecodedBytes = 512ull << 20;
 constexpr std::uint64_t maxMemoryBytes = 2ull << 30;
 constexpr int maxSeconds = 20;
+/// Processor time for the header alone, metadata included: some metadata takes OpenImageIO's parser very long.
+constexpr int maxHeaderMilliseconds = 700;
 constexpr std::uint32_t maxErrorBytes = 4096;
 constexpr std::uint32_t answerMagic = 0x31474d57;   // "WMG1"
 constexpr std::uint32_t requestMagic = 0x32474d57;  // "WMG2"

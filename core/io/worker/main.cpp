@@ -4,6 +4,7 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -56,6 +57,22 @@ bool send(const void* data, std::size_t bytes) {
         bytes -= static_cast<std::size_t>(sent);
     }
     return true;
+}
+
+bool beginHeaderLimit() {
+    int milliseconds = image_protocol::maxHeaderMilliseconds;
+#if defined(WHORL_SANITIZED)
+    milliseconds *= 4;
+#endif
+    itimerval once{};
+    once.it_value = {milliseconds / 1000, milliseconds % 1000 * 1000};
+    std::signal(SIGPROF, SIG_DFL);
+    return setitimer(ITIMER_PROF, &once, nullptr) == 0;
+}
+
+void endHeaderLimit() {
+    const itimerval never{};
+    setitimer(ITIMER_PROF, &never, nullptr);
 }
 
 int fail(const std::string& text) {

@@ -111,6 +111,8 @@ int decode(OIIO::ImageInput& input, OIIO::TypeDesc type, const std::vector<int>&
 }  // namespace
 
 int readImage(const std::string& plugin, bool colour) {
+    if (!beginHeaderLimit()) return fail("the limits for memory and time can not be set");
+    if (!leaveOutMetadata(plugin)) return fail("there is not enough memory");
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", 1);
     auto input = OIIO::ImageInput::create(plugin);
@@ -151,6 +153,7 @@ int readImage(const std::string& plugin, bool colour) {
         return fail("its header says " + size + " pixels, more than a file of " + std::to_string(present) +
                     " bytes can hold");
     }
+    endHeaderLimit();
     if (answer.format == 0) return decode<std::uint8_t>(*input, OIIO::TypeDesc::UINT8, wanted, colour, answer);
     if (answer.format == 1) return decode<std::uint16_t>(*input, OIIO::TypeDesc::UINT16, wanted, colour, answer);
     return decode<float>(*input, OIIO::TypeDesc::FLOAT, wanted, colour, answer);

@@ -56,6 +56,36 @@ bool goodSentence(const std::string& text, const std::string& name) {
     return text.find(name) != std::string::npos && text.back() == '.' && text.find('\n') == std::string::npos;
 }
 
+// A list that OpenImageIO 2.4 reads in quadratic time: minutes for this one.
+QByteArray slowXmp() {
+    QByteArray out = "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF><rdf:Description>";
+    for (int i = 0; i < 40000; ++i) out += "<rdf:li dc:subject=\"k" + QByteArray::number(i) + "\"/>";
+    return out + "</rdf:Description></rdf:RDF></x:xmpmeta>";
+}
+
+// One grey pixel, uncompressed, little-endian, with this XMP.
+std::string tiffWith(const QByteArray& xmp) {
+    std::string out("II*\0\x08\0\0\0\x09\0", 10);
+    const auto number = [&](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) out += char(value >> (8 * i));
+    };
+    constexpr std::uint32_t pixelAt = 10 + 9 * 12 + 4;
+    const auto size = static_cast<std::uint32_t>(xmp.size());
+    const std::uint32_t entries[9][4] = {// tag, type, count, value
+                                         {256, 3, 1, 1}, {257, 3, 1, 1}, {258, 3, 1, 8},
+                                         {259, 3, 1, 1}, {262, 3, 1, 1}, {273, 4, 1, pixelAt},
+                                         {277, 3, 1, 1}, {279, 4, 1, 1}, {700, 1, size, pixelAt + 4}};
+    for (const auto& entry : entries) {
+        number(entry[0], 2);
+        number(entry[1], 2);
+        number(entry[2], 4);
+        number(entry[3], 4);
+    }
+    number(0, 4);
+    number(128, 4);
+    return out + xmp.toStdString();
+}
+
 struct WorkerInstead {
     QByteArray before = qgetenv("WHORL_IMAGE_WORKER");
     explicit WorkerInstead(const fs::path& other) { qputenv("WHORL_IMAGE_WORKER", other.string().c_str()); }
@@ -161,6 +191,54 @@ private Q_SLOTS:
         QVERIFY(read.ok());
         QCOMPARE(std::lround(read->texel(0, 0, 0) * 255.0f), 200L);
         QCOMPARE(std::lround(read->texel(1, 0, 2) * 255.0f), 30L);
+    }
+
+    void metadataChangesNothing_data() {
+        QTest::addColumn<QString>("file");
+        QTest::addColumn<int>("at");  // where a reader of the format may meet metadata first
+        QTest::addColumn<QByteArray>("metadata");
+        const QByteArray xmp = slowXmp();
+        const auto chunk = [](const QByteArray& name, const QByteArray& data) {
+            QByteArray out(4, '\0');
+            for (int i = 0; i < 4; ++i) out[i] = char(data.size() >> (24 - 8 * i));
+            return out + name + data + QByteArray(4, '\0');  // a wrong checksum: nobody is to look at it
+        };
+        QTest::newRow("PNG, XMP") << "plain.png" << 33
+                                  << chunk("iTXt", "XML:com.adobe.xmp" + QByteArray(5, '\0') + xmp);
+        QTest::newRow("PNG, compressed text of nonsense") << "plain.png" << 33 << chunk("zTXt", "a" + xmp);
+        QTest::newRow("PNG, Exif") << "plain.png" << 33 << chunk("eXIf", "MM nonsense");
+        QByteArray segment = "http://ns.adobe.com/xap/1.0/" + QByteArray(1, '\0') + xmp.left(60000);
+        const auto length = segment.size() + 2;
+        segment.prepend(char(length & 255)).prepend(char(length >> 8)).prepend("\xff\xe1");
+        QTest::newRow("JPEG, XMP") << "plain.jpg" << 2 << segment;
+    }
+    void metadataChangesNothing() {
+        QFETCH(QString, file);
+        QFETCH(int, at);
+        QFETCH(QByteArray, metadata);
+        const fs::path plain = m_folder / file.toStdString();
+        QVERIFY(writeImage(noise(40, 30, 3, TexelFormat::U8), plain).ok());
+        auto bytes = bytesOf(plain);
+        const auto expected = readImage(bytes, file.toStdString(), ImageUse::Colour);
+        QVERIFY(expected.ok());
+        bytes.insert(bytes.begin() + at, metadata.begin(), metadata.end());
+        const auto read = readImage(bytes, file.toStdString(), ImageUse::Colour);
+        QVERIFY2(read.ok(), read ? "" : read.error().message.c_str());
+        QCOMPARE(read->width(), 40);
+        QCOMPARE(largestDifference(*read, *expected), 0.0);
+    }
+
+    void slowHeaderIsRefused() {
+        writeBytes(m_folder / "plain.tif", tiffWith("<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"></x:xmpmeta>"));
+        const auto plain = readImage(m_folder / "plain.tif", ImageUse::Data);
+        QVERIFY2(plain.ok(), plain ? "" : plain.error().message.c_str());
+        QCOMPARE(std::lround(plain->texel(0, 0) * 255.0f), 128L);
+
+        writeBytes(m_folder / "slow.tif", tiffWith(slowXmp()));
+        const auto slow = readImage(m_folder / "slow.tif", ImageUse::Data);
+        QVERIFY(!slow.ok());
+        QVERIFY2(goodSentence(slow.error().message, "slow.tif"), slow.error().message.c_str());
+        QVERIFY2(slow.error().message.find("metadata") != std::string::npos, slow.error().message.c_str());
     }
 
     void pfmIsUprightAndRepaired() {
