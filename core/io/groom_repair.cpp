@@ -67,7 +67,7 @@ Result<void> repairMesh(SurfaceMesh& mesh, std::vector<PartSettings>& settings, 
         inOrder = inOrder && part.firstTriangle == next;
         next += part.triangleCount;
         if (finite(part.baseColour)) continue;
-        part.baseColour = glm::vec3(0.8f);
+        part.baseColour = clayColour;
         ++badColours;
     }
     say(problems, badColours, "colours of parts were not finite numbers; they are grey now.");

@@ -11,13 +11,17 @@
 
 namespace whorl {
 
+/// What a part without a material of its own looks like: clay, darker than most hair's gloss and lighter than its
+/// roots.
+inline constexpr glm::vec3 clayColour{0.42f, 0.33f, 0.28f};
+
 /// A named, contiguous range of triangles: a glTF primitive, an OBJ group or object.
 struct MeshPart {
     std::string name;
     std::uint32_t firstTriangle = 0;
     std::uint32_t triangleCount = 0;
-    glm::vec3 baseColour{0.8f};  ///< linear
-    std::string texture{};       ///< name of a colour map of the groom, or empty
+    glm::vec3 baseColour{clayColour};  ///< linear
+    std::string texture{};             ///< name of a colour map of the groom, or empty
 };
 
 /// Triangles with welded vertices and UVs at corners, so that a UV seam does not cut the surface.

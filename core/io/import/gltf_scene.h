@@ -28,7 +28,7 @@ Result<RawImport> readScene(const tinygltf::Model& model, const std::string& nam
 
 /// Colour and texture of a material.
 struct GltfMaterial {
-    glm::vec3 colour{0.8f};
+    glm::vec3 colour{clayColour};
     std::string texture{};
     int uvSet = 0;
 };

@@ -12,7 +12,7 @@
 namespace whorl::import {
 
 struct ObjMaterial {
-    glm::vec3 colour{0.8f};
+    glm::vec3 colour{clayColour};
     std::string image{};  ///< as the library names it; or empty
 };
 using ObjMaterials = std::map<std::string, ObjMaterial, std::less<>>;
