@@ -125,6 +125,10 @@ void addEditCommands(std::vector<Command>& list) {
         {"fill-map", "fill-map NAME VALUE [SIZE]", "Fills a map with one number, or makes it.", true, fillMap});
     list.push_back(
         {"grow", "grow PART on|off", "Says whether hair grows on a part of the mesh (* for all).", true, grow});
+    list.push_back({"reference", "reference", "Prints the reference of all parameters (Markdown).", false,
+                    [](CommandContext&, std::span<const std::string>, Progress&) -> Result<std::string> {
+                        return parameterReference();
+                    }});
     list.push_back({"parts", "parts", "Lists the parts of the mesh and whether they grow hair.", false, parts});
 }
 

@@ -179,6 +179,15 @@ private Q_SLOTS:
         }
         QVERIFY(text.find("0.09 mm") != std::string::npos);
     }
+
+    void theShippedReferenceIsTrue() {
+        const char* resources = std::getenv("WHORL_RESOURCES");
+        QVERIFY2(resources, "ctest sets WHORL_RESOURCES");
+        QFile file(QString(resources) + "/help/parameters.md");
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QVERIFY2(file.readAll() == QByteArray::fromStdString(parameterReference()),
+                 "run the command reference in whorl-cli and keep what it prints as resources/help/parameters.md");
+    }
 };
 
 QTEST_APPLESS_MAIN(ParamTest)
