@@ -169,13 +169,14 @@ std::optional<glm::vec3> BrushIndex::frontPoint(const Groom& groom, const Surfac
 }
 
 void BrushIndex::update(const GuideSet& guides, std::span<const std::uint32_t> changed) {
+    parallelFor(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) m_guides[changed[i]] = ballAround(guides.points(changed[i]));
+    });
     std::size_t block = 0;
     std::size_t i = 0;
     while (i < changed.size()) {
         while (guides.firstOfBlock(block + 1) <= changed[i]) ++block;
-        for (; i < changed.size() && changed[i] < guides.firstOfBlock(block + 1); ++i) {
-            m_guides[changed[i]] = ballAround(guides.points(changed[i]));
-        }
+        while (i < changed.size() && changed[i] < guides.firstOfBlock(block + 1)) ++i;
         ballOfBlock(guides, block);
     }
 }

@@ -48,7 +48,7 @@ class CombBrush : public GuideBrush {
                 if (!stays) points[i] = pushOut(target, walk.along, skin());
             }
             const glm::vec3 segment = points[i] - points[i - 1];
-            if (glm::dot(segment, segment) > 0.0f) direction = glm::normalize(segment);
+            if (glm::dot(segment, segment) > 1e-30f) direction = segment;
             old = here;
         }
     }

@@ -9,10 +9,13 @@
 namespace whorl {
 namespace {
 
+constexpr float noLength = 1e-30f;  // squared
+
 /// `v` scaled to `length`; `direction` of that length where v has none.
 glm::vec3 scaledTo(const glm::vec3& v, float length, const glm::vec3& direction) {
     const float squared = glm::dot(v, v);
-    return squared > 1e-30f ? v * (length / std::sqrt(squared)) : direction * length;
+    if (squared > noLength) return v * (length / std::sqrt(squared));
+    return direction * (length / std::max(glm::length(direction), noLength));
 }
 
 }  // namespace
@@ -32,9 +35,10 @@ glm::vec3 pushOut(const glm::vec3& point, float along, const SkinClearance& skin
     const float asked = skin.at(along);
     glm::vec3 p = point;
     for (int i = 0; i < 8; ++i) {
-        const float missing = asked - skin.skin->distance(p);
+        const DistanceField::Sample here = skin.skin->sample(p);
+        const float missing = asked - here.distance();
         if (missing <= 0.0f) break;
-        p += skin.skin->gradient(p) * missing;
+        p += here.gradient() * missing;
     }
     return p;
 }
@@ -50,25 +54,25 @@ glm::vec3 placeNext(SkinWalk& walk, const glm::vec3& previous, const glm::vec3& 
     // A quarter more than the way, because the field interpolates.
     walk.free -= 1.25f * length;
     if (walk.free >= asked) return free;
-    float distance = skin.skin->distance(free);
-    walk.free = distance;
-    if (distance >= asked) return free;
+    DistanceField::Sample here = skin.skin->sample(free);
+    walk.free = here.distance();
+    if (here.distance() >= asked) return free;
     walk.free = 0.0f;
 
     // Slide: out along the gradient, then back to the length.
     glm::vec3 best = free;
-    float bestDistance = distance;
+    float bestDistance = here.distance();
     glm::vec3 p = free;
     for (int i = 0; i < 6; ++i) {
-        const glm::vec3 out = skin.skin->gradient(p);
+        const glm::vec3 out = here.gradient();
         if (glm::dot(out, out) == 0.0f) break;
         // A little further than asked, because turning back to the length loses some of it again.
-        p = previous + scaledTo(p + out * ((asked - distance) * 1.25f) - previous, length, direction);
-        distance = skin.skin->distance(p);
-        if (distance >= asked) return p;
-        if (distance > bestDistance) {
+        p = previous + scaledTo(p + out * ((asked - here.distance()) * 1.25f) - previous, length, direction);
+        here = skin.skin->sample(p);
+        if (here.distance() >= asked) return p;
+        if (here.distance() > bestDistance) {
             best = p;
-            bestDistance = distance;
+            bestDistance = here.distance();
         }
     }
     // Turn: towards the skin's normal at the previous point, as little as needed. From a point that is outside, a
@@ -101,7 +105,8 @@ void settle(std::span<glm::vec3> points, std::span<const glm::vec3> original, co
         const glm::vec3 segment = points[i] - before;
         before = points[i];
         points[i] = placeNext(walk, points[i - 1], points[i - 1] + segment, direction, length);
-        direction = scaledTo(points[i] - points[i - 1], 1.0f, direction);
+        const glm::vec3 placed = points[i] - points[i - 1];
+        if (glm::dot(placed, placed) > noLength) direction = placed;
     }
 }
 

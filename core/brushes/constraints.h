@@ -32,7 +32,8 @@ struct SkinWalk {
 
 /// Places the point after `previous`: as near to `target` as a segment of exactly `length` and the skin allow. The skin
 /// moves the point along its gradient and the length is restored by turning the segment, so that both hold at once as
-/// long as `previous` itself keeps its clearance. `direction` (unit length) is used where `target` is on `previous`.
+/// long as `previous` itself keeps its clearance. `direction` (any length but zero) is used where `target` is on
+/// `previous`.
 glm::vec3 placeNext(SkinWalk& walk, const glm::vec3& previous, const glm::vec3& target, const glm::vec3& direction,
                     float length);
 

@@ -6,15 +6,12 @@
 
 #include <glm/vec3.hpp>
 
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace whorl {
 
-/// The skin of a surface, with a coarse grid of where it is certainly far away. Immutable once made; any thread may
-/// ask.
+/// The skin of a surface and how hair keeps away from it. Immutable once made; any thread may ask.
 class SkinGuard {
 public:
     explicit SkinGuard(std::shared_ptr<const Surface> surface);
@@ -32,16 +29,11 @@ public:
     void keepOutside(std::span<glm::vec3> points, std::span<const float> ease) const;
 
 private:
-    bool certainlyFar(const glm::vec3& p) const;
-    float distance(const glm::vec3& p) const;
     bool dives(const glm::vec3& from, float distanceFrom, const glm::vec3& to, float distanceTo) const;
 
     std::shared_ptr<const Surface> m_surface;
+    const DistanceField* m_skin = nullptr;
     float m_clearance = 0.0f;
-    glm::vec3 m_origin{0.0f};
-    float m_cellsPerMetre = 1.0f;
-    int m_size[3] = {0, 0, 0};
-    std::vector<std::uint8_t> m_far;
 };
 
 }  // namespace whorl
