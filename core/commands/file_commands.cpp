@@ -76,7 +76,8 @@ Result<std::string> generate(CommandContext& context, Arguments arguments, Progr
         if (!options.hairCount)
             return Error{"The number of hairs must be from 0 to 10000000, not \"" + arguments[1] + "\"."};
     }
-    const auto count = writeHair(context.groom, options, arguments[0], progress);
+    const auto count =
+        writeHair(context.groom, options, arguments[0], progress, context.surfaces.get(context.groom.mesh));
     if (!count) return count.error();
     return std::to_string(*count) + " hairs";
 }
@@ -90,7 +91,8 @@ Result<std::string> hash(CommandContext& context, Arguments arguments, Progress&
         if (!number) return Error{"The number of parts must be from 1 to 4096, not \"" + arguments[0] + "\"."};
         parts = *number;
     }
-    const auto digest = hairDigest(context.groom, parts, std::nullopt, progress);
+    const auto digest =
+        hairDigest(context.groom, parts, std::nullopt, progress, context.surfaces.get(context.groom.mesh));
     if (!digest) return digest.error();
     return hexDigest(*digest);
 }
@@ -104,7 +106,10 @@ Result<std::string> exportGroom(CommandContext& context, Arguments arguments, Pr
         if (!number) return Error{"The number of parts must be from 1 to 4096, not \"" + arguments[1] + "\"."};
         parts = *number;
     }
-    if (auto done = exportPackage(context.groom, arguments[0], parts, progress); !done) return done.error();
+    if (auto done =
+            exportPackage(context.groom, arguments[0], parts, progress, context.surfaces.get(context.groom.mesh));
+        !done)
+        return done.error();
     return std::string();
 }
 

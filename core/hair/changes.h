@@ -15,7 +15,11 @@ bool sameBindings(const Groom& a, const Groom& b);
 /// True when every group has the same number of segments.
 bool sameSegments(const Groom& a, const Groom& b);
 
-/// True when traits made for one serve the other, given the same roots: same seed, group parameters and maps.
-bool sameParameters(const Groom& a, const Groom& b);
+/// True when traits made for one give hairs of the other their shape and length, given the same roots: same seed and
+/// whether to keep outside; the same cut, scales, displacement, frizz, kink, and their maps.
+bool sameShapeParameters(const Groom& a, const Groom& b);
+
+/// True when traits made for one give hairs of the other their colours, opacities and widths, given the same roots.
+bool sameLookParameters(const Groom& a, const Groom& b);
 
 }  // namespace whorl

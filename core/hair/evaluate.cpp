@@ -39,6 +39,20 @@ std::vector<GroupTables> makeTables(const Groom& groom) {
     return tables;
 }
 
+// Widths and colours along one strand.
+void setLook(const HairTraits& traits, const GroupTables& group, std::uint32_t strand, Strands& strands) {
+    const std::size_t first = strands.firstVertex[strand];
+    const std::size_t vertices = strands.firstVertex[strand + 1] - first;
+    const float last = cutEnd(traits.cut, group.segments).parameter / static_cast<float>(group.segments);
+    const glm::vec4 root(traits.rootColour[0], traits.rootColour[1], traits.rootColour[2], traits.rootColour[3]);
+    const glm::vec4 tip(traits.tipColour[0], traits.tipColour[1], traits.tipColour[2], traits.tipColour[3]);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const float along = v + 1 < vertices ? group.along[v] : last;
+        strands.widths[first + v] = traits.rootWidth + (traits.tipWidth - traits.rootWidth) * along;
+        strands.colours[first + v] = root + (tip - root) * along;
+    }
+}
+
 // Makes up to sixteen hairs of one group at a time. One object a thread.
 class Evaluator {
 public:
@@ -133,19 +147,13 @@ private:
     }
 
     void finishVertices(const GroupTables& group, std::uint32_t strand, std::size_t lane) {
-        const HairTraits& traits = m_sources.traits[m_grown[strand]];
         const std::size_t first = m_strands.firstVertex[strand];
         const std::size_t vertices = m_strands.firstVertex[strand + 1] - first;
-        const float last = cutEnd(traits.cut, group.segments).parameter / static_cast<float>(group.segments);
-        const glm::vec4 root(traits.rootColour[0], traits.rootColour[1], traits.rootColour[2], traits.rootColour[3]);
-        const glm::vec4 tip(traits.tipColour[0], traits.tipColour[1], traits.tipColour[2], traits.tipColour[3]);
         for (std::size_t v = 0; v < vertices; ++v) {
-            const float along = v + 1 < vertices ? group.along[v] : last;
             const std::size_t from = v * lanes + lane;
             m_strands.normals[first + v] = {m_normalX[from], m_normalY[from], m_normalZ[from]};
-            m_strands.widths[first + v] = traits.rootWidth + (traits.tipWidth - traits.rootWidth) * along;
-            m_strands.colours[first + v] = root + (tip - root) * along;
         }
+        setLook(m_sources.traits[m_grown[strand]], group, strand, m_strands);
     }
 
     const HairSources& m_sources;
@@ -210,6 +218,14 @@ void evaluateHairs(const HairSources& sources, std::span<const std::uint32_t> gr
         }
         for (std::size_t g = 0; g < tables.size(); ++g)
             if (!waiting[g].empty()) evaluator.make(tables[g], waiting[g]);
+    });
+}
+
+void renewLook(const HairSources& sources, std::span<const std::uint32_t> grown, Strands& strands) {
+    const std::vector<GroupTables> tables = makeTables(sources.groom);
+    parallelFor(grown.size(), blockHairs, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            setLook(sources.traits[grown[i]], tables[strands.groups[i]], static_cast<std::uint32_t>(i), strands);
     });
 }
 

@@ -37,4 +37,7 @@ std::vector<std::uint32_t> layOut(const HairSources& sources, Strands& strands);
 void evaluateHairs(const HairSources& sources, std::span<const std::uint32_t> grown,
                    std::span<const std::uint32_t> which, Strands& strands, Progress& progress);
 
+/// Gives all strands the widths and colours of their traits again; their shape stays.
+void renewLook(const HairSources& sources, std::span<const std::uint32_t> grown, Strands& strands);
+
 }  // namespace whorl

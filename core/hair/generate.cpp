@@ -5,6 +5,7 @@
 #include "core/hair/evaluate.h"
 
 #include <algorithm>
+#include <atomic>
 #include <new>
 #include <numeric>
 
@@ -27,8 +28,11 @@ struct Batch {
     Bindings bindings;
     std::vector<HairTraits> traits;
     std::vector<std::uint32_t> grown;
-    Strands strands;
+    std::shared_ptr<Strands> strands = std::make_shared<Strands>();
 };
+
+// Above this many bytes of hair no memory is kept for the next copy.
+constexpr std::size_t mostSpare = std::size_t{256} << 20;
 
 std::vector<std::uint32_t> allOf(const Strands& strands) {
     std::vector<std::uint32_t> which(strands.count());
@@ -57,11 +61,13 @@ struct Generator::State {
     bool batchValid = false;
     std::uint32_t batchCount = 0;
     Batch batch;
+    std::shared_ptr<Strands> spare;  // what was shared before `batch.strands`; used again when nobody holds it any more
 
     // What the newest groom changed, worked out by prepare().
     bool densityChanged = true;
     bool bindingsChanged = true;
-    bool parametersChanged = true;
+    bool shapeChanged = true;  // by parameters, of every hair
+    bool lookChanged = true;
     bool shapesRebuilt = true;
     std::vector<std::uint8_t> changedBlocks;
 
@@ -71,6 +77,7 @@ struct Generator::State {
     std::uint32_t hairCount(const GenerateOptions& options) const;
 
     void makeBatch(Batch& made, std::uint32_t count, Progress& progress);
+    void ownStrands(bool keep);
     void renewBatch(std::uint32_t count, HairRange range, Progress& progress);
     std::vector<std::uint32_t> strandsOfChangedGuides() const;
 };
@@ -81,7 +88,8 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     valid = false;
     densityChanged = !known || !sameDensity(groom, next);
     bindingsChanged = !known || !sameBindings(groom, next);
-    parametersChanged = !known || !sameParameters(groom, next);
+    shapeChanged = !known || !sameShapeParameters(groom, next);
+    lookChanged = !known || !sameLookParameters(groom, next);
     shapesRebuilt = !known || bindingsChanged || !sameSegments(groom, next);
     changedBlocks.assign(next.guides.blockCount(), 1);
     for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
@@ -136,8 +144,9 @@ void Generator::State::makeBatch(Batch& made, std::uint32_t count, Progress& pro
     made.traits = makeTraits(lookup, made.roots, progress);
     if (progress.cancelled()) return;
     const HairSources sources = sourcesOf(made, lookup);
-    made.grown = layOut(sources, made.strands);
-    evaluateHairs(sources, made.grown, allOf(made.strands), made.strands, progress);
+    Strands& strands = *made.strands;
+    made.grown = layOut(sources, strands);
+    evaluateHairs(sources, made.grown, allOf(strands), strands, progress);
 }
 
 std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
@@ -158,6 +167,25 @@ std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
     return which;
 }
 
+// Makes batch.strands writable. Somebody holds them: writes go to other memory, with the same content if `keep`.
+void Generator::State::ownStrands(bool keep) {
+    if (batch.strands.use_count() == 1) {
+        // Pairs with the release when another thread let go of them: its reads come before our writes.
+        std::atomic_thread_fence(std::memory_order_acquire);
+        return;
+    }
+    std::shared_ptr<Strands> other;
+    if (spare && spare.use_count() == 1) {
+        std::atomic_thread_fence(std::memory_order_acquire);
+        other = std::move(spare);
+    } else {
+        other = std::make_shared<Strands>();
+    }
+    if (keep) *other = *batch.strands;
+    spare = batch.strands->bytes() <= mostSpare ? batch.strands : nullptr;
+    batch.strands = std::move(other);
+}
+
 // The kept batch brought up to date: only what the change touches is made again.
 void Generator::State::renewBatch(std::uint32_t count, HairRange range, Progress& progress) {
     const bool rootsKept = batchValid && !densityChanged && batchCount == count && batch.range.first == range.first &&
@@ -166,18 +194,23 @@ void Generator::State::renewBatch(std::uint32_t count, HairRange range, Progress
     batchCount = count;
     batch.range = range;
     if (!rootsKept) {
+        ownStrands(false);
         makeBatch(batch, count, progress);
         batchValid = !progress.cancelled();
         return;
     }
     const TraitLookup lookup(groom);
     if (bindingsChanged) batch.bindings = bindHairs(groom, index, batch.roots, progress);
-    if (parametersChanged) batch.traits = makeTraits(lookup, batch.roots, progress);
+    if (shapeChanged || lookChanged) batch.traits = makeTraits(lookup, batch.roots, progress);
     if (progress.cancelled()) return;
     const HairSources sources = sourcesOf(batch, lookup);
-    const bool all = bindingsChanged || parametersChanged || shapesRebuilt;
-    if (all) batch.grown = layOut(sources, batch.strands);
-    evaluateHairs(sources, batch.grown, all ? allOf(batch.strands) : strandsOfChangedGuides(), batch.strands, progress);
+    const bool all = bindingsChanged || shapeChanged || shapesRebuilt;
+    const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : strandsOfChangedGuides();
+    if (all || lookChanged || !some.empty()) ownStrands(!all);
+    Strands& strands = *batch.strands;
+    if (all) batch.grown = layOut(sources, strands);
+    if (!all && lookChanged) renewLook(sources, batch.grown, strands);
+    evaluateHairs(sources, batch.grown, all ? allOf(strands) : some, strands, progress);
     batchValid = !progress.cancelled();
 }
 
@@ -191,6 +224,18 @@ void Generator::setSurface(std::shared_ptr<const Surface> surface) {
 }
 
 Result<Strands> Generator::generate(const Groom& groom, const GenerateOptions& options, Progress& progress) {
+    Result<std::shared_ptr<const Strands>> shared = generateShared(groom, options, progress);
+    if (!shared) return shared.error();
+    try {
+        return **shared;
+    } catch (const std::bad_alloc&) {
+        return tooLarge((*shared)->count());
+    }
+}
+
+Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& groom, const GenerateOptions& options,
+                                                                 Progress& progress) {
+    using Shared = std::shared_ptr<const Strands>;
     State& s = *m_state;
     HairRange range;
     try {
@@ -203,20 +248,21 @@ Result<Strands> Generator::generate(const Groom& groom, const GenerateOptions& o
             s.renewBatch(count, range, progress);
             if (progress.cancelled()) return cancelledError();
             progress.report(1.0f, "Growing hair");
-            return s.batch.strands;
+            return Shared(s.batch.strands);
         }
         s.batchValid = false;
         s.batch = Batch{};
-        Strands all;
+        s.spare.reset();
+        auto all = std::make_shared<Strands>();
         Result<void> streamed = stream(
             groom, options, 1u << 16,
             [&](const Strands& block) {
-                all.append(block);
+                all->append(block);
                 return true;
             },
             progress);
         if (!streamed) return streamed.error();
-        return all;
+        return Shared(std::move(all));
     } catch (const std::bad_alloc&) {
         s.batchValid = false;
         s.valid = false;
@@ -240,7 +286,7 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
                            static_cast<std::uint32_t>(std::min<std::uint64_t>(first + step, range.last))};
             s.makeBatch(block, count, progress);
             if (progress.cancelled()) return cancelledError();
-            if (block.strands.count() > 0 && !sink(block.strands)) return cancelledError();
+            if (block.strands->count() > 0 && !sink(*block.strands)) return cancelledError();
             progress.report(
                 static_cast<float>(block.range.last - range.first) / static_cast<float>(range.last - range.first),
                 "Growing hair");
@@ -253,9 +299,10 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
 }
 
 Result<std::uint64_t> hairDigest(const Groom& groom, std::uint32_t parts, std::optional<std::uint32_t> hairCount,
-                                 Progress& progress) {
+                                 Progress& progress, std::shared_ptr<const Surface> surface) {
     Hasher hasher;
     Generator generator;
+    generator.setSurface(std::move(surface));
     GenerateOptions options;
     options.hairCount = hairCount;
     options.partCount = std::max(parts, 1u);

@@ -43,6 +43,12 @@ public:
     /// The whole part in memory.
     Result<Strands> generate(const Groom& groom, const GenerateOptions& options, Progress& progress);
 
+    /// The same without a copy: what is given is kept for the next call as well, and copied then only if somebody still
+    /// holds it and only part of it changes. It never changes while it is held, and may be let go of in any thread.
+    /// Right for whoever shows the hair of each step of an edit.
+    Result<std::shared_ptr<const Strands>> generateShared(const Groom& groom, const GenerateOptions& options,
+                                                          Progress& progress);
+
     /// In blocks of at most `blockSize` hairs, in order of id, with constant memory: `sink` gets each block once, from
     /// the calling thread, and returns false to stop (the call then gives cancelledError()).
     Result<void> stream(const Groom& groom, const GenerateOptions& options, std::uint32_t blockSize,
@@ -56,8 +62,9 @@ private:
     std::unique_ptr<State> m_state;
 };
 
-/// Digest of all hair of the groom: equal for any `parts` and any number of threads.
+/// Digest of all hair of the groom: equal for any `parts` and any number of threads. `surface`: that of the groom's
+/// mesh when it is at hand.
 Result<std::uint64_t> hairDigest(const Groom& groom, std::uint32_t parts, std::optional<std::uint32_t> hairCount,
-                                 Progress& progress);
+                                 Progress& progress, std::shared_ptr<const Surface> surface = nullptr);
 
 }  // namespace whorl

@@ -36,7 +36,7 @@ const HairFormat* hairFormatFor(const std::filesystem::path& file) {
 }
 
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,
-                                Progress& progress) {
+                                Progress& progress, std::shared_ptr<const Surface> surface) {
     const HairFormat* format = hairFormatFor(file);
     if (!format) {
         std::string known;
@@ -48,6 +48,7 @@ Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& optio
     std::uint64_t hairs = 0;
     std::optional<Error> fault;
     Generator generator;
+    generator.setSurface(std::move(surface));
     const Result<void> made = generator.stream(
         groom, options, blockHairs,
         [&](const Strands& block) {

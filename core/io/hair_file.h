@@ -31,9 +31,10 @@ std::span<const HairFormat> hairFormats();
 /// By suffix of `file`; null for an unknown one.
 const HairFormat* hairFormatFor(const std::filesystem::path& file);
 
-/// Generates and writes in blocks: constant memory for any number of hairs.
+/// Generates and writes in blocks: constant memory for any number of hairs. `surface`: that of the groom's mesh when it
+/// is at hand.
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,
-                                Progress& progress);
+                                Progress& progress, std::shared_ptr<const Surface> surface = nullptr);
 
 /// Curves from a .hair file (Cem Yuksel): points of each strand, metres as stored. Every count of the header is checked
 /// against the bytes that are there. Strands of a single point are left out.

@@ -78,7 +78,8 @@ json partToJson(const PackagePart& part) {
 }
 
 /// All files, groom.json last.
-Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress) {
+Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
+                                 std::shared_ptr<const Surface> surface) {
     json manifest{{"format", formatName}, {"version", formatVersion}};
     Progress silent;
     auto shared = sharedBytes(groom, manifest, progress);
@@ -90,6 +91,7 @@ Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std
     *shared = {};
 
     Generator generator;
+    generator.setSurface(std::move(surface));
     Hasher all;
     json list = json::array();
     for (std::uint32_t i = 0; i < parts; ++i) {
@@ -207,17 +209,31 @@ Result<Package> readPackage(const fs::path& folder, Progress& progress) {
     return package;
 }
 
-Result<void> writeAndCheck(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress) {
+/// True when nothing that generation asks differs.
+bool sameMesh(const SurfaceMesh& a, const SurfaceMesh& b) {
+    const auto samePart = [](const MeshPart& x, const MeshPart& y) {
+        return x.firstTriangle == y.firstTriangle && x.triangleCount == y.triangleCount && x.name == y.name;
+    };
+    return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&
+           a.cornerUvs == b.cornerUvs && std::ranges::equal(a.parts, b.parts, samePart);
+}
+
+Result<void> writeAndCheck(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
+                           std::shared_ptr<const Surface> surface) {
+    if (!surface) surface = std::make_shared<const Surface>(groom.mesh);
     if (auto free = checkReplaceable(folder); !free) return free;
     auto safe = SafeFolder::create(folder);
     if (!safe) return safe.error();
-    const auto digest = writeFiles(groom, safe->path(), parts, progress);
+    const auto digest = writeFiles(groom, safe->path(), parts, progress, surface);
     if (!digest) return digest.error();
 
     progress.report(0.5f, "Checking the package");
-    const auto back = readPackage(safe->path(), progress);
+    auto back = readPackage(safe->path(), progress);
     if (!back) return back.error();
-    const auto again = hairDigest(back->groom, parts, std::nullopt, progress);
+    // The same mesh has the same distance field, which takes long to make.
+    const bool kept = sameMesh(*groom.mesh, *back->groom.mesh);
+    if (kept) back->groom.mesh = groom.mesh;
+    const auto again = hairDigest(back->groom, parts, std::nullopt, progress, kept ? surface : nullptr);
     if (!again) return again.error();
     if (*again != *digest || back->digest != *digest) {
         std::string why = back->problems.empty() ? std::string() : " " + back->problems.front();
@@ -231,12 +247,13 @@ Result<void> writeAndCheck(const Groom& groom, const fs::path& folder, std::uint
 
 }  // namespace
 
-Result<void> exportPackage(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress) {
+Result<void> exportPackage(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
+                           std::shared_ptr<const Surface> surface) {
     const std::string name = folder.string();
     if (parts == 0) parts = static_cast<std::uint32_t>(std::max(groom.counts->parts, 1));
     if (parts > maxPackageParts)
         return Error{name + ": " + std::to_string(parts) + " parts are too many; the most is 4096."};
-    return guarded(name, [&] { return writeAndCheck(groom, folder, parts, progress); });
+    return guarded(name, [&] { return writeAndCheck(groom, folder, parts, progress, std::move(surface)); });
 }
 
 Result<Package> openPackage(const fs::path& folder, Progress& progress) {

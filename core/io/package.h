@@ -6,8 +6,10 @@
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
+#include "core/surface/surface.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,9 +46,10 @@ struct Package {
 
 /// Writes to a temporary folder beside, reads it back, generates from that and checks the digest, then puts it in
 /// place: the old package or the new one. Every part is generated once for its box. `parts` 0: counts.parts; at most
-/// 4096. A folder that holds anything but a package is refused, not replaced.
+/// 4096. A folder that holds anything but a package is refused, not replaced. `surface`: that of the groom's mesh when
+/// it is at hand.
 Result<void> exportPackage(const Groom& groom, const std::filesystem::path& folder, std::uint32_t parts,
-                           Progress& progress);
+                           Progress& progress, std::shared_ptr<const Surface> surface = nullptr);
 /// Refuses what is broken, incomplete or newer. Does not generate; compare `digest` with hairDigest for that.
 Result<Package> openPackage(const std::filesystem::path& folder, Progress& progress);
 /// True for a folder whose groom.json begins as that of a package does.

@@ -45,7 +45,6 @@ public:
     glm::vec3 gradient(const glm::vec3& p) const { return sample(p).gradient(); }
     float band() const { return m_band; }
     float spacing() const { return m_spacing; }
-    std::size_t bytes() const { return m_bricks.size() * sizeof(std::int32_t) + m_nodes.size() * sizeof(float); }
 
 private:
     // Cells lie in bricks of 3 x 3 x 3, whose 4 x 4 x 4 nodes are stored together: a cell is two cache lines. Bricks

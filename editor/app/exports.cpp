@@ -95,8 +95,9 @@ bool Exports::exportPackage(const std::filesystem::path& wanted, std::uint32_t p
     if (folder.extension() != ".groom") folder += ".groom";
     const Groom groom = m_document.committed();
     const QString name = textOf(folder.filename());
+    const std::shared_ptr<const Surface> surface = m_document.surface();
     const Result<void> done = runWithProgress<void>(&m_window, tr("Exporting %1").arg(name), [&](Progress& progress) {
-        return whorl::exportPackage(groom, folder, parts, progress);
+        return whorl::exportPackage(groom, folder, parts, progress, surface);
     });
     if (done)
         m_messages.say(MessageBar::Kind::Info, tr("Exported %1.").arg(name));
@@ -108,9 +109,10 @@ bool Exports::exportPackage(const std::filesystem::path& wanted, std::uint32_t p
 bool Exports::exportHair(const std::filesystem::path& file) {
     const Groom groom = m_document.committed();
     const QString name = textOf(file.filename());
-    const Result<std::uint64_t> done =
-        runWithProgress<std::uint64_t>(&m_window, tr("Exporting %1").arg(name),
-                                       [&](Progress& progress) { return writeHair(groom, {}, file, progress); });
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    const Result<std::uint64_t> done = runWithProgress<std::uint64_t>(
+        &m_window, tr("Exporting %1").arg(name),
+        [&](Progress& progress) { return writeHair(groom, {}, file, progress, surface); });
     if (done)
         m_messages.say(MessageBar::Kind::Info, tr("Exported %1.").arg(name));
     else if (!done.error().cancelled)

@@ -18,12 +18,12 @@ void HairJob::request(const Groom& groom, std::shared_ptr<const Surface> surface
         if (surface) m_generator.setSurface(surface);
         GenerateOptions options;
         options.hairCount = hairs;
-        Result<Strands> result = m_generator.generate(groom, options, progress);
+        Result<std::shared_ptr<const Strands>> result = m_generator.generateShared(groom, options, progress);
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
         std::shared_ptr<const Strands> strands;
         QString problem;
         if (result) {
-            strands = std::make_shared<const Strands>(std::move(*result));
+            strands = std::move(*result);
         } else if (result.error().cancelled) {
             return;
         } else {

@@ -305,6 +305,7 @@ private Q_SLOTS:
         // One straight guide on a plane: every hair is the guide moved to its root.
         Groom groom = testing::groomOn(testing::plane(2), 1, 4, 0.2f);
         general(groom).segments = 4;
+        general(groom).rootThickness.value = 0.00009f;
         const Strands strands = grown(groom, {50u});
         QCOMPARE(strands.count(), std::size_t{50});
         for (std::size_t i = 0; i < strands.count(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/random.h"
+#include "core/hair/changes.h"
 #include "core/hair/generate.h"
 #include "tests/support/shapes.h"
 
@@ -23,7 +24,7 @@ void edit(Groom& groom, std::uint32_t seed, std::uint64_t step) {
     const auto unit = [&](std::uint32_t channel) { return randomFloat(seed, step, channel); };
     const std::size_t guides = groom.guides.count();
     HairParams& params = groom.groups.edit()[random(20, groom.groups->size())].params;
-    switch (random(0, 15)) {
+    switch (random(0, 17)) {
         case 0:
         case 1:
         case 2:
@@ -71,6 +72,12 @@ void edit(Groom& groom, std::uint32_t seed, std::uint64_t step) {
                 for (int x = 0; x < 3; ++x) groom.maps.edit(name)->setTexel(x, 1, 0, unit(13));
             }
             break;
+        case 14:
+            params.colour.tip.value = {unit(15), unit(16), unit(17)};
+            break;
+        case 15:
+            params.general.rootThickness.value = 0.001f * unit(18);
+            break;
         default:
             params.general.cut.value = unit(14);
             break;
@@ -87,6 +94,7 @@ private Q_SLOTS:
             Groom groom = testing::randomGroom(seed);
             Generator used;
             SurfaceCache surfaces;
+            std::vector<std::pair<std::shared_ptr<const Strands>, std::uint64_t>> held;
             for (std::uint64_t step = 0; step < 60; ++step) {
                 edit(groom, seed, step);
                 if (step % 30 == 29) groom = testing::randomGroom(seed + static_cast<std::uint32_t>(step));
@@ -101,12 +109,73 @@ private Q_SLOTS:
                 // The used one keeps its own surface.
                 fresh.setSurface(surfaces.get(groom.mesh));
                 const Result<Strands> expected = fresh.generate(groom, options, progress);
-                const Result<Strands> got = used.generate(groom, options, progress);
+                const Result<std::shared_ptr<const Strands>> got = used.generateShared(groom, options, progress);
                 QVERIFY(expected && got);
-                QVERIFY2(digestOf(*got) == digestOf(*expected),
+                QVERIFY2(digestOf(**got) == digestOf(*expected),
                          qPrintable(QString("seed %1 step %2").arg(seed).arg(step)));
+                // Held for none, one or a few steps; what is held never changes.
+                if (step % 7 != 3) held.emplace_back(*got, digestOf(*expected));
+                for (const auto& [strands, digest] : held) QCOMPARE(digestOf(*strands), digest);
+                if (step % 3 == 0) held.clear();
             }
         }
+    }
+
+    void whatNobodyHoldsIsNotCopied() {
+        Groom groom = testing::groomOn(testing::sphere(12, 20), 100);
+        Generator generator;
+        Progress progress;
+        const auto next = [&] {
+            for (glm::vec3& p : groom.guides.editPoints(10).subspan(1)) p.x += 0.001f;
+            return *generator.generateShared(groom, {500u}, progress);
+        };
+        const glm::vec3* const first = next()->positions.data();
+        QCOMPARE(next()->positions.data(), first);
+        // As a viewport does: it holds the newest. Two of them take turns.
+        std::shared_ptr<const Strands> shown = next();
+        QCOMPARE(shown->positions.data(), first);
+        shown = next();
+        const glm::vec3* const second = shown->positions.data();
+        QVERIFY(second != first);
+        shown = next();
+        QCOMPARE(shown->positions.data(), first);
+        shown = next();
+        QCOMPARE(shown->positions.data(), second);
+        // Nothing changed: the same again.
+        QVERIFY(*generator.generateShared(groom, {500u}, progress) == shown);
+    }
+
+    void coloursAndWidthsChangeNoShape() {
+        Groom groom = testing::groomOn(testing::sphere(12, 20), 100);
+        groom.maps.set("tint", Map(8, 8, 3, TexelFormat::U8, 0.5f));
+        groom.maps.set("unused", Map(8, 8, 1, TexelFormat::U8, 0.5f));
+        HairParams& params = groom.groups.edit()[0].params;
+        params.colour.tip.map = "tint";
+        params.frizz.tip.value = 0.01f;
+        const auto changed = [&](auto&& change) {
+            Groom other = groom;
+            change(other, other.groups.edit()[0].params);
+            return std::pair(!sameShapeParameters(groom, other), !sameLookParameters(groom, other));
+        };
+        using Both = std::pair<bool, bool>;
+        const Both nothing{false, false}, look{false, true}, shape{true, false};
+        QCOMPARE(changed([](Groom&, HairParams&) {}), nothing);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.colour.root.value.x = 0.5f; }), look);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.colour.mutants.value = 0.5f; }), look);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.general.tipThickness.value = 0.5f; }), look);
+        QCOMPARE(changed([](Groom& g, HairParams&) { g.maps.edit("tint")->setTexel(1, 1, 0, 1.0f); }), look);
+        QCOMPARE(changed([](Groom& g, HairParams&) { g.maps.edit("unused")->setTexel(1, 1, 0, 1.0f); }), nothing);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.general.cut.map = "unused"; }), shape);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.frizz.tip.value = 0.02f; }), shape);
+        QCOMPARE(changed([](Groom&, HairParams& p) { p.general.keepOutside = false; }), shape);
+
+        Generator generator;
+        Progress progress;
+        const Strands before = *generator.generate(groom, {500u}, progress);
+        groom.groups.edit()[0].params.colour.root.value.x += 0.25f;
+        const Strands after = *generator.generate(groom, {500u}, progress);
+        QVERIFY(before.positions == after.positions && before.normals == after.normals);
+        QVERIFY(before.colours != after.colours);
     }
 
     void aCombMovesOnlyHairsOfItsGuides() {

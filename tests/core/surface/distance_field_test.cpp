@@ -82,6 +82,20 @@ private Q_SLOTS:
         QCOMPARE(field.distance(glm::vec3(10.0f)), field.band());
     }
 
+    void aSampleSaysBothAndNeverJumps() {
+        const SurfaceQuery ball{testing::sphere(40, 48, 0.1f)};
+        const DistanceField field = DistanceField::build(ball, 64);
+        const float step = 0.01f * field.spacing();
+        for (std::uint64_t i = 0; i < 20000; ++i) {
+            const glm::vec3 p = randomPoint(21, i, 0.3f);
+            const DistanceField::Sample sample = field.sample(p);
+            QCOMPARE(sample.distance(), field.distance(p));
+            QCOMPARE(sample.gradient(), field.gradient(p));
+            const glm::vec3 way = randomPoint(22, i, 2.0f * step);
+            QVERIFY(std::abs(field.distance(p + way) - sample.distance()) < 2.0f * glm::length(way) + 1e-6f);
+        }
+    }
+
     void nodesAreExact() {
         // Sampled at the nodes, trilinear mixing takes no part. The corner of the grid is seven spacings off the box.
         const SurfaceMesh mesh = testing::sphere(9, 11);
