@@ -188,7 +188,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, state.uploads);
     if (hair != nullptr) state.hair.draw(effort.smoothHair);
     state.vertexArray.bind();
-    if (settings.showGuides) state.guides.draw();
+    if (settings.showGuides) state.guides.draw(overlay, size);
     state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);
     state.drawTimer.end();

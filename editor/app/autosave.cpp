@@ -20,7 +20,8 @@ void Autosave::documentChanged() {
 }
 
 void Autosave::writeNow() {
-    if (m_document.clean() || !m_document.hasGroom() || m_document.revision() == m_written) return;
+    if (m_document.clean() || !m_document.hasGroom() || (m_document.revision() == m_written && !m_retry)) return;
+    m_retry = false;
     m_written = m_document.revision();
     m_timer.start();
     m_job.submit(
@@ -40,6 +41,7 @@ void Autosave::writeNow() {
             QMetaObject::invokeMethod(
                 this,
                 [this, sentence] {
+                    m_retry = true;
                     // Once is enough: the artist knows, and is not interrupted every minute.
                     if (!m_complained) Q_EMIT failed(tr("Unsaved work can not be kept safe: %1").arg(sentence));
                     m_complained = true;

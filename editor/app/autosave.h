@@ -50,6 +50,7 @@ private:
     std::shared_ptr<Place> m_place = std::make_shared<Place>();
     QTimer m_timer;
     std::uint64_t m_written = 0;  // revision that the journal holds
+    bool m_retry = false;         // the last write failed: the timer tries again
     bool m_complained = false;
     LatestJob m_job;
 };

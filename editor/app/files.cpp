@@ -42,8 +42,15 @@ bool Files::openAsked(bool meshesOnly) {
 }
 
 bool Files::open(const std::filesystem::path& file) {
+    return openAs(file, fileKind(file) == FileKind::Document ? Opened::Document : Opened::Import);
+}
+
+bool Files::openSample(const std::filesystem::path& file) {
+    return openAs(file, Opened::Sample);
+}
+
+bool Files::openAs(const std::filesystem::path& file, Opened kind) {
     if (!mayDiscard()) return false;
-    const FileKind kind = fileKind(file);
     const QString name = textOf(file.filename());
     SurfaceCache& surfaces = m_document.surfaces();
     Result<OpenedDocument> opened =
@@ -62,13 +69,16 @@ bool Files::open(const std::filesystem::path& file) {
     m_lock.reset();
     m_readOnly.clear();
     m_copyOnly = false;
-    const bool document = kind == FileKind::Document;
+    const bool document = kind == Opened::Document;
     if (document) m_lock = lock(file);
     m_document.reset(std::move(opened->groom),
                      document && !m_copyOnly ? std::filesystem::absolute(file) : std::filesystem::path());
-    if (!document || m_copyOnly) m_document.markUnsaved();
-    remember(file);
-    QSettings().setValue("folder", textOf(std::filesystem::absolute(file).parent_path()));
+    // A sample can be opened again: only work on it is unsaved.
+    if (kind == Opened::Import || m_copyOnly) m_document.markUnsaved();
+    if (kind != Opened::Sample) {
+        remember(file);
+        QSettings().setValue("folder", textOf(std::filesystem::absolute(file).parent_path()));
+    }
     tell(tr("Opened %1.").arg(name), opened->problems);
     return true;
 }

@@ -31,6 +31,8 @@ public:
     bool openAsked(bool meshesOnly);
     /// A document, package or mesh; asks about unsaved work first. Problems go to the message bar.
     bool open(const std::filesystem::path& file);
+    /// The same for a groom that came with the program: as work without a name, so that saving never overwrites it.
+    bool openSample(const std::filesystem::path& file);
     /// Saves under the document's name; asks for one when it has none or may not be written.
     bool save();
     bool saveAs();
@@ -51,6 +53,8 @@ Q_SIGNALS:
     void journalObsolete();
 
 private:
+    enum class Opened : std::uint8_t { Document, Import, Sample };
+    bool openAs(const std::filesystem::path& file, Opened kind);
     void remember(const std::filesystem::path& file);
     /// Locks `file`; sets m_readOnly when it is someone else's or may not be written.
     std::unique_ptr<QLockFile> lock(const std::filesystem::path& file);

@@ -46,6 +46,7 @@ MainWindow::MainWindow(const std::filesystem::path& journals)
     setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
     setCentralWidget(m_area);
     new ViewActions(m_state, *m_actions, m_area->viewport(), *this);
+    makeSamples();
     makeMenus();
     makeBars();
     makePanels();
@@ -81,7 +82,6 @@ void MainWindow::makeMenus() {
     for (const QString& category : actionCategories()) {
         QMenu* menu = menuBar()->addMenu('&' + category);
         menu->setObjectName("menu_" + category.toLower());
-        menu->setToolTipsVisible(true);
         for (const ActionInfo& row : m_actions->table()) {
             if (row.category != category || row.kind == ActionInfo::Held) continue;
             menu->addAction(&m_actions->get(row.id));
@@ -93,6 +93,18 @@ void MainWindow::makeMenus() {
             if (row.separatorAfter) menu->addSeparator();
         }
     }
+}
+
+void MainWindow::makeSamples() {
+    m_samples = new QMenu(this);
+    m_samples->setObjectName("menu_samples");
+    for (const std::filesystem::path& file : sampleFiles()) {
+        QAction* action = m_samples->addAction(sampleName(file), this, [this, file] { m_files->openSample(file); });
+        action->setObjectName("sample_" + textOf(file.stem()));
+    }
+    QAction& action = m_actions->get("file.sample");
+    action.setMenu(m_samples);
+    action.setEnabled(!m_samples->isEmpty());
 }
 
 void MainWindow::makeBars() {
@@ -170,8 +182,8 @@ void MainWindow::connectActions() {
     Actions& a = *m_actions;
     a.on("file.new", this, [this] { m_files->openAsked(true); });
     a.on("file.open", this, [this] { m_files->openAsked(false); });
-    a.on("file.sample", this, [this] { m_files->open(sampleFile()); });
-    a.get("file.sample").setEnabled(!sampleFile().empty());
+    // As a submenu it opens by itself; from the list of actions or by a key it opens here.
+    a.on("file.sample", this, [this] { m_samples->popup(mapToGlobal(rect().center() / 2)); });
     a.on("file.save", this, [this] { m_files->save(); });
     a.on("file.save_as", this, [this] { m_files->saveAs(); });
     a.on("file.quit", this, [this] { close(); });
@@ -228,7 +240,7 @@ void MainWindow::hidePanels(bool hide) {
 }
 
 void MainWindow::documentChanged() {
-    setWindowTitle(m_document.hasGroom() ? tr("%1[*]").arg(m_document.shownName()) : QString());
+    setWindowTitle(m_document.hasGroom() ? tr("%1[*]").arg(m_document.shownName()) : tr("Whorl"));
     setWindowModified(m_document.hasGroom() && !m_document.clean());
 }
 

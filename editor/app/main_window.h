@@ -49,6 +49,7 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
+    void makeSamples();
     void makeMenus();
     void makeBars();
     void makePanels();
@@ -68,6 +69,7 @@ private:
     Autosave* m_autosave;
     std::filesystem::path m_journals;
     QMenu* m_recent = nullptr;
+    QMenu* m_samples = nullptr;
     QLabel* m_hint = nullptr;
     QList<QWidget*> m_hidden;
 };

@@ -5,31 +5,28 @@
 
 #include <QCoreApplication>
 #include <algorithm>
-#include <vector>
 
 namespace whorl {
 
-std::filesystem::path resourceFolder() {
-    if (const QString given = qEnvironmentVariable("WHORL_RESOURCES"); !given.isEmpty()) return pathOf(given);
-    std::error_code error;
-    std::filesystem::path folder = pathOf(QCoreApplication::applicationDirPath());
-    const std::filesystem::path installed = folder / ".." / "share" / "whorl";
-    if (std::filesystem::is_directory(installed, error)) return installed;
-    // In a build tree the program is a few folders below the source.
-    for (int level = 0; level < 5 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
-        if (std::filesystem::is_directory(folder / "resources" / "samples", error)) return folder / "resources";
-    }
-    return {};
-}
-
-std::filesystem::path sampleFile() {
-    std::error_code error;
+std::vector<std::filesystem::path> sampleFiles() {
+    const std::filesystem::path program = pathOf(QCoreApplication::applicationDirPath());
     std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(resourceFolder() / "samples", error)) {
-        if (entry.path().extension() == ".whorl") found.push_back(entry.path());
+    for (const auto& folder : {program / ".." / "share" / "whorl" / "samples", program / ".." / "samples"}) {
+        std::error_code error;
+        for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+             entry.increment(error)) {
+            if (entry->path().extension() == ".whorl") found.push_back(entry->path().lexically_normal());
+        }
+        if (!found.empty()) break;
     }
     std::sort(found.begin(), found.end());
-    return found.empty() ? std::filesystem::path() : found.front();
+    return found;
+}
+
+QString sampleName(const std::filesystem::path& file) {
+    QString name = textOf(file.stem()).replace('_', ' ');
+    if (!name.isEmpty()) name[0] = name[0].toUpper();
+    return name;
 }
 
 }  // namespace whorl

@@ -2,14 +2,15 @@
 // Where the program's own files are.
 #pragma once
 
+#include <QString>
 #include <filesystem>
+#include <vector>
 
 namespace whorl {
 
-/// The folder "resources": $WHORL_RESOURCES, the installed one beside the program, or that of the source tree that the
-/// program was built in. Empty when there is none.
-std::filesystem::path resourceFolder();
-/// The sample groom that a newcomer sees first, or empty.
-std::filesystem::path sampleFile();
+/// The sample grooms that came with the program, by name: beside an installed program, or in its build tree.
+std::vector<std::filesystem::path> sampleFiles();
+/// "Long coat" for ".../long_coat.whorl".
+QString sampleName(const std::filesystem::path& file);
 
 }  // namespace whorl

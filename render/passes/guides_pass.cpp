@@ -53,17 +53,27 @@ void GuidesPass::setGuides(const GuideSet& guides, Uploads& uploads) {
     m_guides = guides;
 }
 
-void GuidesPass::draw() {
+void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size) {
     if (m_guides.empty()) return;
     const std::size_t points = m_firstPoint.back();
     m_points.bindStorage(0);
     gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
-    m_lines.set("halfWidth", 0.8f);
+    // As shares of the picture, which may be drawn smaller than shown; from the bottom left, as clip space has it.
+    const glm::vec2 shown(glm::max(size, glm::ivec2(1)));
+    const float radius = overlay.showBrush ? overlay.brushRadius : 0.0f;
+    const glm::vec3 brush(overlay.brushPixel.x / shown.x, 1.0f - overlay.brushPixel.y / shown.y, radius / shown.y);
+    for (gl::Program* program : {&m_lines, &m_roots}) {
+        program->set("brush", brush);
+        program->set("shownHeight", shown.y);
+        program->set("opacityNear", 0.6f);
+        program->set("opacityFar", 0.07f);
+    }
+    m_lines.set("halfWidth", 0.6f);
     m_lines.set("rootColour", glm::vec3(0.95f, 0.42f, 0.08f));
     m_lines.set("tipColour", glm::vec3(1.0f, 0.85f, 0.35f));
     m_lines.use();
     gl::drawTriangles(0, (points - 1) * 6);
-    m_roots.set("halfWidth", 2.4f);
+    m_roots.set("halfWidth", 1.5f);
     m_roots.set("rootColour", glm::vec3(0.10f, 0.75f, 0.95f));
     m_roots.set("tipColour", glm::vec3(0.10f, 0.75f, 0.95f));
     m_roots.use();

@@ -6,6 +6,7 @@
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
 #include "render/passes/map_texture.h"
+#include "render/view_settings.h"
 
 namespace whorl {
 
@@ -14,7 +15,8 @@ public:
     static Result<GuidesPass> create();
     /// Uploads the blocks that differ from the last call; all of them when counts of points changed.
     void setGuides(const GuideSet& guides, Uploads& uploads);
-    void draw();
+    /// Strong at the brush and faint elsewhere, so that the hair stays in sight; everywhere faint without a brush.
+    void draw(const OverlayState& overlay, glm::ivec2 size);
 
 private:
     GuideSet m_guides;

@@ -5,6 +5,8 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPainter>
+#include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -23,6 +25,31 @@ int scoreOf(const QString& name, const QStringList& words) {
     return score;
 }
 
+constexpr int idRole = Qt::UserRole;
+constexpr int keysRole = Qt::UserRole + 1;
+
+/// Rows of one height, with the keys at the right.
+class RowDelegate : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+
+    QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        QSize size = QStyledItemDelegate::sizeHint(option, index);
+        size.setHeight(std::max(option.fontMetrics.height() + 8, 26));
+        return size;
+    }
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        QStyledItemDelegate::paint(painter, option, index);
+        const bool chosen = option.state.testFlag(QStyle::State_Selected);
+        const bool enabled = index.flags().testFlag(Qt::ItemIsEnabled);
+        painter->setPen(option.palette.color(enabled ? QPalette::Active : QPalette::Disabled,
+                                             chosen ? QPalette::HighlightedText : QPalette::Text));
+        painter->drawText(option.rect.adjusted(0, 0, -8, 0), Qt::AlignRight | Qt::AlignVCenter,
+                          index.data(keysRole).toString());
+    }
+};
+
 }  // namespace
 
 CommandPalette::CommandPalette(Actions& actions, QWidget* parent)
@@ -37,6 +64,8 @@ CommandPalette::CommandPalette(Actions& actions, QWidget* parent)
     m_list->setObjectName("palette_list");
     m_list->setAccessibleName(tr("Actions"));
     m_list->setFocusPolicy(Qt::NoFocus);
+    m_list->setItemDelegate(new RowDelegate(m_list));
+    m_list->setIconSize({18, 18});
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(m_input);
     layout->addWidget(m_list);
@@ -61,12 +90,14 @@ void CommandPalette::filter(const QString& text) {
         std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     }
     m_list->clear();
+    QPixmap none(m_list->iconSize());
+    none.fill(Qt::transparent);
     for (const auto& [score, row] : found) {
-        const QString keys = m_actions.shownShortcut(*row);
-        QString line = QString("%1:  %2").arg(row->category, Actions::plainText(*row));
-        if (!keys.isEmpty()) line += QString("    [%1]").arg(keys);
-        auto* item = new QListWidgetItem(m_actions.get(row->id).icon(), line, m_list);
-        item->setData(Qt::UserRole, row->id);
+        const QIcon icon = m_actions.get(row->id).icon();
+        const QString line = QString("%1:  %2").arg(row->category, Actions::plainText(*row));
+        auto* item = new QListWidgetItem(icon.isNull() ? QIcon(none) : icon, line, m_list);
+        item->setData(idRole, row->id);
+        item->setData(keysRole, m_actions.shownShortcut(*row));
         item->setToolTip(row->tip);
         if (!m_actions.get(row->id).isEnabled()) item->setFlags(Qt::NoItemFlags);
     }
@@ -92,7 +123,7 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
 void CommandPalette::run() {
     const QListWidgetItem* item = m_list->currentItem();
     if (!item || !(item->flags() & Qt::ItemIsEnabled)) return;
-    QAction& action = m_actions.get(item->data(Qt::UserRole).toString());
+    QAction& action = m_actions.get(item->data(idRole).toString());
     // Closed first: the action may open a dialog of its own.
     accept();
     action.trigger();

@@ -8,6 +8,7 @@
 
 #include <QEvent>
 #include <QLabel>
+#include <QMenu>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QPushButton>
@@ -104,19 +105,32 @@ QWidget* ViewportArea::makeWelcome(Actions& actions) {
     open->setObjectName("welcome_open");
     open->setDefault(true);
     connect(open, &QPushButton::clicked, &actions.get("file.open"), &QAction::trigger);
-    auto* sample = new QPushButton(tr("Open a sample"), welcome);
-    sample->setObjectName("welcome_sample");
-    connect(sample, &QPushButton::clicked, &actions.get("file.sample"), &QAction::trigger);
+    open->setMinimumSize(150, 36);
+    auto* samples = new QHBoxLayout;
+    samples->setSpacing(8);
     QAction* sampleAction = &actions.get("file.sample");
-    const auto follow = [=] { sample->setVisible(sampleAction->isEnabled()); };
-    connect(sampleAction, &QAction::changed, sample, follow);
-    follow();
-    for (QPushButton* button : {open, sample}) button->setMinimumSize(150, 36);
+    const auto fill = [=] {
+        while (QLayoutItem* item = samples->takeAt(0)) {
+            delete item->widget();
+            delete item;
+        }
+        const QList<QAction*> found = sampleAction->menu() ? sampleAction->menu()->actions() : QList<QAction*>{};
+        if (found.isEmpty()) return;
+        samples->addStretch();
+        samples->addWidget(new QLabel(tr("or open a sample:"), welcome));
+        for (QAction* action : found) {
+            auto* button = new QPushButton(action->text(), welcome);
+            button->setObjectName("welcome_" + action->objectName());
+            connect(button, &QPushButton::clicked, action, &QAction::trigger);
+            samples->addWidget(button);
+        }
+        samples->addStretch();
+    };
+    connect(sampleAction, &QAction::changed, welcome, fill);
+    fill();
     auto* buttons = new QHBoxLayout;
-    buttons->setSpacing(12);
     buttons->addStretch();
     buttons->addWidget(open);
-    buttons->addWidget(sample);
     buttons->addStretch();
     auto* layout = new QVBoxLayout(welcome);
     layout->setSpacing(14);
@@ -125,6 +139,7 @@ QWidget* ViewportArea::makeWelcome(Actions& actions) {
     layout->addWidget(formats);
     layout->addSpacing(6);
     layout->addLayout(buttons);
+    layout->addLayout(samples);
     layout->addStretch();
     return welcome;
 }
