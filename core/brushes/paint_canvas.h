@@ -2,7 +2,7 @@
 // Painting on the model: which texels of a map lie under a brush, and what a stroke has put on them so far.
 #pragma once
 
-#include "core/brushes/paint_tile.h"
+#include "core/brushes/paint_places.h"
 #include "core/surface/surface.h"
 
 #include <glm/vec3.hpp>
@@ -29,7 +29,7 @@ struct PaintDab {
 /// stroke does not pile up.
 class PaintCanvas {
 public:
-    static constexpr int border = 5;
+    static constexpr int border = PaintPlaces::border;
 
     /// `base`: the map as the stroke found it; one channel.
     PaintCanvas(const Surface& surface, const Map& base);
@@ -38,21 +38,21 @@ public:
     /// nothing when none do. True when any did.
     bool paint(MapSet& maps, std::string_view name, const PaintDab& dab, float value);
 
-    /// Memory of the tiles reached so far.
+    /// Memory of the tiles reached so far, without what strokes share.
     std::size_t bytes() const;
 
 private:
-    void findTiles(const PaintDab& dab);
-    void raiseMask(PaintTile& tile, const PaintDab& dab) const;
+    // What the stroke has put on one tile.
+    struct Mask {
+        std::vector<float> strength;       // the largest so far, by texel; empty until reached
+        std::vector<std::uint16_t> risen;  // texels that the newest dab raised; one may come twice
+    };
+    static void raise(Mask& mask, const PaintTile& tile, const PaintDab& dab);
     bool writeTile(MapSet& maps, std::string_view name, std::size_t index, float value);
 
-    Cow<SurfaceMesh> m_mesh;
+    std::shared_ptr<PaintPlaces> m_places;
     Map m_base;
-    int m_columns;
-    int m_rows;
-    std::vector<TexelBox> m_boxes;
-    std::vector<BoundingBall> m_blocks;  // around each few triangles
-    std::vector<std::unique_ptr<PaintTile>> m_tiles;
+    std::vector<Mask> m_masks;  // by tile
     std::vector<std::uint8_t> m_wanted;
     std::vector<std::size_t> m_touched;
 };

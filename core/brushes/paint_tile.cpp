@@ -100,7 +100,6 @@ public:
 
     PaintTile finish() {
         PaintTile tile;
-        tile.mask.assign(static_cast<std::size_t>(tileSize) * tileSize, 0.0f);
         std::vector<std::uint32_t> counts(m_triangles.size() + 1, 0);
         for (const Found& found : m_found) ++counts[found.local + 1];
         for (std::size_t i = 1; i < counts.size(); ++i) counts[i] += counts[i - 1];
@@ -246,12 +245,10 @@ TexelBox texelBox(const SurfaceMesh& mesh, const Map& map, std::uint32_t triangl
             static_cast<std::int32_t>(std::floor(from.y + span.y))};
 }
 
-PaintTile buildTile(const SurfaceMesh& mesh, const Map& map, std::span<const TexelBox> boxes, int column, int row,
-                    int border) {
+PaintTile buildTile(const SurfaceMesh& mesh, const Map& map, std::span<const TexelBox> boxes,
+                    std::span<const std::uint32_t> triangles, int column, int row, int border) {
     Gatherer gatherer(mesh, map, column, row, border);
-    for (std::size_t t = 0; t < boxes.size(); ++t) {
-        if (boxes[t].x1 >= boxes[t].x0) gatherer.addTriangle(static_cast<std::uint32_t>(t), boxes[t]);
-    }
+    for (const std::uint32_t t : triangles) gatherer.addTriangle(t, boxes[t]);
     gatherer.addSmall();
     gatherer.growBorders();
     return gatherer.finish();

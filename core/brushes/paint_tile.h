@@ -42,13 +42,12 @@ struct PaintTile {
     };
     std::vector<Triangle> triangles;
     std::vector<Sample> samples;
-    std::vector<float> mask;           ///< largest strength of the stroke so far, by texel
-    std::vector<std::uint16_t> risen;  ///< texels whose mask the newest dab raised; one may come twice
 };
 
 /// Every texel centre of the tile with each triangle that covers it; texels up to `border` texels beyond a chart with
-/// the nearest triangle there. `boxes`: texelBox of every triangle. Any thread.
-PaintTile buildTile(const SurfaceMesh& mesh, const Map& map, std::span<const TexelBox> boxes, int column, int row,
-                    int border);
+/// the nearest triangle there. `boxes`: texelBox of every triangle; `triangles`: all that come within the border of the
+/// tile, ascending. Any thread.
+PaintTile buildTile(const SurfaceMesh& mesh, const Map& map, std::span<const TexelBox> boxes,
+                    std::span<const std::uint32_t> triangles, int column, int row, int border);
 
 }  // namespace whorl

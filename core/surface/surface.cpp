@@ -10,6 +10,16 @@ const DistanceField& Surface::skin() const {
     return m_skin;
 }
 
+std::shared_ptr<PaintPlaces> Surface::paintPlaces() const {
+    const std::lock_guard lock(m_placesMutex);
+    return m_places;
+}
+
+void Surface::setPaintPlaces(std::shared_ptr<PaintPlaces> places) const {
+    const std::lock_guard lock(m_placesMutex);
+    m_places.swap(places);
+}
+
 std::shared_ptr<const Surface> SurfaceCache::get(const Cow<SurfaceMesh>& mesh) {
     const std::lock_guard lock(m_mutex);
     if (!m_newest || !m_newest->shared.sameAs(mesh)) m_newest = std::make_shared<Surface>(mesh);

@@ -10,6 +10,8 @@
 
 namespace whorl {
 
+class PaintPlaces;
+
 /// Immutable once made; any thread may ask.
 class Surface {
 public:
@@ -18,6 +20,10 @@ public:
     const SurfaceMesh& mesh() const { return query.mesh(); }
     /// Made at the first call (tens of milliseconds to a second), then kept.
     const DistanceField& skin() const;
+    /// What painting has found out about the newest shape of map, for as long as the surface lives: see
+    /// core/brushes/paint_places.h. Null at first.
+    std::shared_ptr<PaintPlaces> paintPlaces() const;
+    void setPaintPlaces(std::shared_ptr<PaintPlaces> places) const;
 
     Cow<SurfaceMesh> shared;
     SurfaceQuery query;
@@ -26,6 +32,8 @@ public:
 private:
     mutable std::once_flag m_skinOnce;
     mutable DistanceField m_skin;
+    mutable std::mutex m_placesMutex;
+    mutable std::shared_ptr<PaintPlaces> m_places;
 };
 
 /// Keeps the Surface of the newest mesh. Thread-safe.

@@ -6,6 +6,7 @@
 #include "tests/support/shapes.h"
 
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 
 using namespace whorl;
@@ -134,6 +135,40 @@ private Q_SLOTS:
         // A second stroke goes on from there.
         const Groom more = painted(after, settings, scribble);
         QVERIFY(valueAt(more, 0, 0.5f, 0.5f) > valueAt(after, 0, 0.5f, 0.5f) + 0.1f);
+    }
+
+    void aLaterStrokeFindsWhatTheFirstOneMade() {
+        // Big triangles and a map that is no multiple of the tile size, so that every way to list a tile is taken.
+        const SurfaceMesh mesh = testing::plane(2);
+        const Surface used((Cow<SurfaceMesh>(SurfaceMesh(mesh))));
+        const auto painted = [&](const Surface& surface, const Map& map, float x) {
+            MapSet maps;
+            maps.set("paint", map);
+            PaintCanvas canvas(surface, map);
+            for (int i = 0; i < 4; ++i) {
+                PaintDab dab{.centre = {x + 0.05f * static_cast<float>(i), 0.0f, 0.1f}, .radius = 0.2f};
+                dab.eye = {0.0f, 5.0f, 0.0f};
+                canvas.paint(maps, "paint", dab, 1.0f);
+            }
+            std::vector<float> texels;
+            for (int row = 0; row < map.height(); ++row)
+                for (int column = 0; column < map.width(); ++column)
+                    texels.push_back(maps.find("paint")->texel(column, row));
+            return texels;
+        };
+        for (const int size : {100, 640, 100}) {
+            const Map map(size, size + 30, 1, TexelFormat::U16, 0.0f);
+            for (const float x : {-0.3f, 0.2f, -0.3f}) {
+                const Surface fresh((Cow<SurfaceMesh>(SurfaceMesh(mesh))));
+                const std::vector<float> expected = painted(fresh, map, x);
+                QVERIFY(painted(used, map, x) == expected);
+                QVERIFY(*std::max_element(expected.begin(), expected.end()) > 0.9f);
+            }
+            QVERIFY(PaintPlaces::of(used, map) == PaintPlaces::of(used, map));
+            Map turned = map;
+            turned.flipV = true;
+            QVERIFY(PaintPlaces::of(used, map) != PaintPlaces::of(used, turned));
+        }
     }
 
     void invertErases() {
