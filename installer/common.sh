@@ -1,22 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-# Shared by installer/run and installer/test: where the tree is, and its packages.
+# Shared by installer/run, installer/test and installer/fuzz: where the tree is, its packages, how it is built.
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$top" || exit 1
 
 say() { printf '\n== %s\n' "$*"; }
 
-# Installs what is missing; does nothing, and needs no network or rights, when all is there.
+# install_packages [LIST...]: installs what is missing of the lists, or of installer/packages.txt; does nothing, and
+# needs no network or rights, when all is there.
 install_packages() {
     command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || {
-        echo "Whorl's installer is for Debian 12 and its relatives; install the packages of installer/packages.txt by hand." >&2
+        echo "Whorl's installer is for Debian 12 and its relatives; install the packages of installer/packages*.txt by hand." >&2
         exit 1
     }
+    [ $# -eq 0 ] && set -- installer/packages.txt
     local missing=() package
     while read -r package; do
         case $package in '' | '#'*) continue ;; esac
         dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-    done <installer/packages.txt
+    done < <(cat "$@")
     [ ${#missing[@]} -eq 0 ] && return
     say "Installing ${#missing[@]} packages"
     local as_root=()
@@ -31,9 +33,11 @@ install_packages() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}" || exit 1
 }
 
-# build PRESET: configures and builds into build/PRESET.
+# build PRESET [TARGET...]: configures and builds into build/PRESET; without targets, everything.
 build() {
-    say "Building (preset $1)"
-    cmake --preset "$1" || exit 1
-    cmake --build --preset "$1" || exit 1
+    local preset=$1
+    shift
+    say "Building (preset $preset)"
+    cmake --preset "$preset" || exit 1
+    cmake --build --preset "$preset" ${1:+--target "$@"} || exit 1
 }

@@ -40,7 +40,8 @@ Result<std::string> findWorker() {
 // Only what a dynamic loader, a sanitizer or a temporary folder may need; nothing that configures image libraries.
 std::vector<std::string> smallEnvironment() {
     std::vector<std::string> environment{"LC_ALL=C", "MALLOC_ARENA_MAX=1"};
-    for (const char* name : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "TMPDIR"}) {
+    for (const char* name :
+         {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "TMPDIR"}) {
         if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
     }
     return environment;
