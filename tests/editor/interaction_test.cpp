@@ -406,28 +406,6 @@ private Q_SLOTS:
         QCOMPARE(document().file().filename(), m_file.filename());
     }
 
-    void samplesAreCopiesWithoutAName() {
-        // The samples beside this program's folder are those of the build.
-        auto* menu = m_window->findChild<QMenu*>("menu_samples");
-        QVERIFY(menu);
-        const std::filesystem::path folder = pathOf(QCoreApplication::applicationDirPath()) / ".." / "samples";
-        qsizetype files = 0;
-        std::error_code error;
-        for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; ++entry) {
-            files += entry->path().extension() == ".whorl";
-        }
-        QCOMPARE(menu->actions().size(), files);
-        QCOMPARE(m_window->actions().get("file.sample").isEnabled(), files > 0);
-        // Any document can stand for one.
-        const QStringList recent = m_window->files().recent();
-        QVERIFY(m_window->files().openSample(m_file));
-        QVERIFY(document().hasGroom());
-        QVERIFY(document().file().empty());
-        QVERIFY(document().clean());
-        QVERIFY(m_window->files().readOnlyReason().isEmpty());
-        QCOMPARE(m_window->files().recent(), recent);
-    }
-
     void openTwiceIsACopy() {
         auto second = std::make_unique<MainWindow>(m_folder / "journals2");
         QVERIFY(second->files().open(m_file));

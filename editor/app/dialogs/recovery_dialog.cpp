@@ -17,7 +17,7 @@ RecoveryDialog::RecoveryDialog(std::vector<Recovery> found, Files& files, QWidge
     setObjectName("recovery_dialog");
     setWindowTitle(tr("Unsaved work was found"));
     auto* text =
-        new QLabel(tr("Whorl ended before this work was saved.\nRestored work stays safe until you save it."), this);
+        new QLabel(tr("Whorl ended before this work was saved. Restored work stays safe until you save it."), this);
     text->setWordWrap(true);
     m_list->setObjectName("recovery_list");
     m_list->setAccessibleName(tr("Unsaved work"));
@@ -26,13 +26,13 @@ RecoveryDialog::RecoveryDialog(std::vector<Recovery> found, Files& files, QWidge
     restore->setObjectName("recovery_restore");
     auto* later = buttons->addButton(tr("Later"), QDialogButtonBox::RejectRole);
     later->setObjectName("recovery_later");
-    auto* remove = buttons->addButton(tr("Delete"), QDialogButtonBox::ResetRole);
+    auto* remove = buttons->addButton(tr("Delete"), QDialogButtonBox::DestructiveRole);
     remove->setObjectName("recovery_delete");
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(text);
     layout->addWidget(m_list);
     layout->addWidget(buttons);
-    resize(560, 260);
+    resize(520, 260);
     connect(restore, &QPushButton::clicked, this, [this] {
         const int row = m_list->currentRow();
         if (row >= 0 && m_files.restore(m_found[static_cast<std::size_t>(row)])) accept();
