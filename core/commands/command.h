@@ -2,6 +2,12 @@
 // Named commands on a groom: one list for scripts, tests, the command line and the editor's menus.
 #pragma once
 
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/brushes/brush.h"
+#include "core/model/groom.h"
+#include "core/surface/surface.h"
+
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -9,12 +15,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/progress.h"
-#include "core/base/result.h"
-#include "core/brushes/brush.h"
-#include "core/model/groom.h"
-#include "core/surface/surface.h"
 
 namespace whorl {
 
@@ -30,10 +30,10 @@ struct CommandContext {
 };
 
 struct Command {
-    std::string name;     ///< "place-guides"
-    std::string usage;    ///< "place-guides [COUNT]"
-    std::string help;     ///< one sentence
-    bool edits = true;    ///< changes the groom (one undo step in the editor)
+    std::string name;   ///< "place-guides"
+    std::string usage;  ///< "place-guides [COUNT]"
+    std::string help;   ///< one sentence
+    bool edits = true;  ///< changes the groom (one undo step in the editor)
     /// Gives a line to print, often empty.
     std::function<Result<std::string>(CommandContext&, std::span<const std::string> arguments, Progress&)> run;
 };
@@ -56,7 +56,8 @@ Result<std::string> runScript(std::span<const Command> commands, CommandContext&
 Result<void> placeGuides(Groom& groom, const Surface& surface, std::size_t count, float length, bool keep,
                          Progress& progress);
 /// One guide at a place; takes its shape from its nearest neighbours, or stands along the normal.
-std::uint32_t addGuide(Groom& groom, const Surface& surface, const SurfacePoint& root, std::uint8_t group, float length);
+std::uint32_t addGuide(Groom& groom, const Surface& surface, const SurfacePoint& root, std::uint8_t group,
+                       float length);
 /// A data map of the groom that drives density and can be painted; made (filled with `fill`) when there is none yet.
 /// Gives its name.
 std::string ensureDensityMap(Groom& groom, std::size_t group, int size, float fill);

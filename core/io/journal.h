@@ -2,11 +2,11 @@
 // The autosave journal: what a crash would have lost.
 #pragma once
 
+#include "core/io/document.h"
+
 #include <filesystem>
 #include <optional>
 #include <vector>
-
-#include "core/io/document.h"
 
 namespace whorl {
 

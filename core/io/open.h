@@ -2,9 +2,9 @@
 // A groom from any file that can start one.
 #pragma once
 
-#include <filesystem>
-
 #include "core/io/document.h"
+
+#include <filesystem>
 
 namespace whorl {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/groom.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <set>
 
 namespace whorl {

@@ -2,9 +2,9 @@
 // How much hair the artist asks for at a place.
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include "core/model/groom.h"
+
+#include <glm/vec2.hpp>
 
 namespace whorl {
 

@@ -2,13 +2,13 @@
 // Random roots by the sub-triangle distribution of seed 000 (Sik, section 3).
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/sampling/density.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace whorl {
 
@@ -34,8 +34,8 @@ public:
 
     /// Triangles in Hilbert order of their centres, so that consecutive strata are neighbours on the surface.
     /// Fails only when cancelled. Zero density everywhere gives an empty sampler.
-    static Result<SubTriangleSampler> build(const SurfaceMesh& mesh, const DensityLookup& density, const Options& options,
-                                            Progress& progress);
+    static Result<SubTriangleSampler> build(const SurfaceMesh& mesh, const DensityLookup& density,
+                                            const Options& options, Progress& progress);
 
     /// Total weight: area x density over the surface. Zero: `sample` must not be called.
     double total() const { return m_total; }
@@ -79,7 +79,7 @@ std::vector<SurfacePoint> rejectionSample(const SurfaceMesh& mesh, const Density
 
 /// Guide roots: `count` places that follow the density and keep their distance from each other (weighted sample
 /// elimination, Yuksel 2015, from a stratified pool). Fewer when the surface has none; deterministic.
-Result<std::vector<SurfacePoint>> evenRoots(const SurfaceMesh& mesh, const SubTriangleSampler& sampler, std::size_t count,
-                                            std::uint32_t seed, Progress& progress);
+Result<std::vector<SurfacePoint>> evenRoots(const SurfaceMesh& mesh, const SubTriangleSampler& sampler,
+                                            std::size_t count, std::uint32_t seed, Progress& progress);
 
 }  // namespace whorl

@@ -2,11 +2,11 @@
 // All that is derived from a mesh alone, made once and shared by brushes, generator and renderer.
 #pragma once
 
-#include <memory>
-#include <mutex>
-
 #include "core/surface/distance_field.h"
 #include "core/surface/surface_query.h"
+
+#include <memory>
+#include <mutex>
 
 namespace whorl {
 

@@ -2,11 +2,11 @@
 // Places on the surface and the frames there.
 #pragma once
 
+#include "core/model/surface_mesh.h"
+
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-
-#include "core/model/surface_mesh.h"
 
 namespace whorl {
 

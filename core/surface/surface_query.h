@@ -2,11 +2,11 @@
 // Rays and nearest points on the mesh, by Embree.
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include "core/base/cow.h"
 #include "core/surface/surface_point.h"
+
+#include <memory>
+#include <optional>
 
 namespace whorl {
 
@@ -27,7 +27,8 @@ public:
     const SurfaceMesh& mesh() const { return *m_mesh; }
 
     /// First triangle that the ray meets, both sides count. `direction` need not be unit length; distance is in metres.
-    std::optional<SurfaceHit> raycast(const glm::vec3& origin, const glm::vec3& direction, float maxDistance = 1e30f) const;
+    std::optional<SurfaceHit> raycast(const glm::vec3& origin, const glm::vec3& direction,
+                                      float maxDistance = 1e30f) const;
     /// Nearest place within `maxDistance`; ties go to the lowest triangle. Exact (computed in our own arithmetic), so
     /// the answer is the same on every machine.
     std::optional<SurfaceHit> nearest(const glm::vec3& position, float maxDistance = 1e30f) const;

@@ -11,14 +11,14 @@ namespace whorl {
 
 /// One line of output: what was measured against what.
 struct BenchRow {
-    std::string name;           ///< "sampler/4M roots, 69k triangles, noise map"
-    double seconds = 0;         ///< median of ours
-    double baselineSeconds = 0; ///< median of the baseline; 0 when there is none
-    std::string baseline;       ///< what the baseline is
-    double items = 0;           ///< work done a run (roots, hairs, frames)
-    std::string unit;           ///< "roots"
-    bool correct = true;        ///< the result was checked against the baseline's or the law
-    std::string note;           ///< memory, counts
+    std::string name;            ///< "sampler/4M roots, 69k triangles, noise map"
+    double seconds = 0;          ///< median of ours
+    double baselineSeconds = 0;  ///< median of the baseline; 0 when there is none
+    std::string baseline;        ///< what the baseline is
+    double items = 0;            ///< work done a run (roots, hairs, frames)
+    std::string unit;            ///< "roots"
+    bool correct = true;         ///< the result was checked against the baseline's or the law
+    std::string note;            ///< memory, counts
 };
 
 struct Bench {
