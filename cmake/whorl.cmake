@@ -9,10 +9,6 @@ add_library(whorl_flags INTERFACE)
 # -fno-math-errno and -fno-trapping-math change no result; they let loops with sqrt and conditions become vectors.
 target_compile_options(whorl_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow
     -Wnon-virtual-dtor -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough)
-# GCC 12 warns of its own std::string with -O3 ("may overlap", GCC bug 105651).
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(whorl_flags INTERFACE -Wno-restrict)
-endif()
 target_compile_definitions(whorl_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL GLM_FORCE_XYZW_ONLY)
 target_compile_definitions(whorl_flags INTERFACE QT_NO_KEYWORDS)
 if(WHORL_WARNINGS_AS_ERRORS)
