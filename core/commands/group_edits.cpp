@@ -46,7 +46,7 @@ void replaceMapName(Groom& groom, std::string_view from, const std::string& to) 
     if (!(counts == *groom.counts)) groom.counts.edit() = counts;
     std::vector<Group> groups = *groom.groups;
     for (Group& group : groups) {
-        HairParams::each(group.params, [&](const BlockInfo&, auto& block) { replaceIn(block); });
+        HairParams::eachWithModifiers(group.params, [&](const BlockInfo&, auto& block) { replaceIn(block); });
     }
     if (groups != *groom.groups) groom.groups.edit() = std::move(groups);
     const auto usesIt = [&](const MeshPart& part) { return part.texture == from; };

@@ -92,7 +92,13 @@ void checkGroups(const Groom& groom, Problems& problems) {
     for (const Group& group : groups) {
         if (!names.insert(group.name).second) problems.push_back("Two groups are named \"" + group.name + "\".");
         HairParams params = group.params;
-        HairParams::each(params, [&](const BlockInfo& block, auto& values) {
+        std::set<std::string> modifierNames;
+        for (const Modifier& modifier : params.modifiers) {
+            if (!isModifierName(modifier.name) || !modifierNames.insert(modifier.name).second)
+                problems.push_back("Group " + group.name + " has a modifier \"" + modifier.name +
+                                   "\" whose name is none or another's.");
+        }
+        HairParams::eachWithModifiers(params, [&](const BlockInfo& block, auto& values) {
             for (const ParamRef& ref : paramsOf(values)) {
                 if (const std::string* map = paramMap(ref)) {
                     checkMap("groups/" + group.name + "/" + std::string(block.id) + "/" + std::string(ref.info.id),
@@ -130,7 +136,9 @@ std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
                  mesh->cornerUvs.size() * sizeof(glm::vec2);
     }
     if (!partSettings.sameAs(before.partSettings)) bytes += partSettings->size() * sizeof(PartSettings);
-    if (!groups.sameAs(before.groups)) bytes += groups->size() * sizeof(Group);
+    if (!groups.sameAs(before.groups)) {
+        for (const Group& group : *groups) bytes += sizeof(Group) + group.params.modifiers.size() * sizeof(Modifier);
+    }
     if (!counts.sameAs(before.counts)) bytes += sizeof(CountParams);
     return bytes;
 }
@@ -146,18 +154,16 @@ bool Groom::growsHair(std::uint32_t part) const {
     return part >= partSettings->size() || (*partSettings)[part].growsHair;
 }
 
+float lengthScale(const SurfaceMesh& mesh) {
+    const float size = largestSide(mesh);
+    return size > 0.0f && (size < 0.1f || size > 0.6f) ? size / 0.35f : 1.0f;
+}
+
 Groom makeGroom(SurfaceMesh mesh) {
     Groom groom;
-    const float size = largestSide(mesh);
-    if (size > 0.0f && (size < 0.1f || size > 0.6f)) {
-        const float factor = size / 0.35f;
-        HairParams& params = groom.groups.edit()[0].params;
-        const auto scaled = [&](float length) { return std::clamp(length * factor, 1e-9f, 0.1f); };
-        params.general.rootThickness.value = scaled(params.general.rootThickness.value);
-        params.general.tipThickness.value = scaled(params.general.tipThickness.value);
-        for (glm::vec3* frequency : {&params.frizz.frequency.value, &params.kink.frequency.value}) {
-            *frequency = glm::vec3(std::clamp(frequency->x / factor, 1e-3f, 1e5f));
-        }
+    if (const float factor = lengthScale(mesh); factor != 1.0f) {
+        HairParams::each(groom.groups.edit()[0].params,
+                         [&](const BlockInfo&, auto& block) { scaleLengths(paramsOf(block), factor); });
     }
     groom.partSettings = Cow<std::vector<PartSettings>>(std::vector<PartSettings>(mesh.parts.size()));
     groom.mesh = Cow<SurfaceMesh>(std::move(mesh));

@@ -48,6 +48,9 @@ struct Groom {
 /// and hair of a tenth of a millimetre would not be seen on them.
 Groom makeGroom(SurfaceMesh mesh);
 
+/// What default lengths are multiplied by on `mesh`: 1 for a mesh from 0.1 to 0.6 m, else its size over 0.35 m.
+float lengthScale(const SurfaceMesh& mesh);
+
 /// What an opened file or an edit did not do quite as asked, one sentence each, for the artist.
 using Problems = std::vector<std::string>;
 

@@ -2,6 +2,8 @@
 // The parameters of the groom and of its groups, each declared once (see core/param/param.h).
 #pragma once
 
+#include "core/model/modifier.h"
+#include "core/model/strand_params.h"
 #include "core/param/param.h"
 
 #include <array>
@@ -85,6 +87,8 @@ struct GeneralParams {
     Driven tipThickness{0.00003f};
     Driven displacement{0.0f};
     bool keepOutside = true;
+    float skipThreshold = 0.0f;
+    bool writeNormals = true;
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
@@ -151,6 +155,16 @@ struct GeneralParams {
                         .label = "Keep outside the skin",
                         .tip = "Pushes hair that dips into the mesh back out."},
               self.keepOutside);
+        visit(ParamInfo{.id = "skip_threshold",
+                        .label = "Skip threshold",
+                        .softMax = 0.1,
+                        .tip = "Leaves out vertices where hair is straight: those that are nearer to the straight line "
+                               "than this share of its length."},
+              self.skipThreshold);
+        visit(ParamInfo{.id = "write_normals",
+                        .label = "Write normals",
+                        .tip = "Exported files hold the curves' normals. Without them files are smaller."},
+              self.writeNormals);
     }
     bool operator==(const GeneralParams&) const = default;
 };
@@ -203,6 +217,9 @@ struct FrizzParams {
     Driven root{0.0f};
     Driven tip{0.0f};
     DrivenVector frequency{{40.0f, 40.0f, 40.0f}};
+    Driven animation{0.0f};
+    Driven speed{1.0f};
+    Vector direction{{0.0f, 1.0f, 0.0f}};
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
@@ -229,6 +246,21 @@ struct FrizzParams {
                         .unit = "per metre",
                         .tip = "Noise waves a metre along x, y, z. High: every hair strays its own way."},
               self.frequency);
+        visit(ParamInfo{.id = "animation",
+                        .label = "Animation",
+                        .max = 10,
+                        .softMax = 1,
+                        .tip = "How much of the frizz moves with time. At time 0 nothing has moved."},
+              self.animation);
+        visit(ParamInfo{.id = "speed",
+                        .label = "Speed",
+                        .max = 1000,
+                        .softMax = 10,
+                        .unit = "waves per second",
+                        .tip = "How fast the noise passes."},
+              self.speed);
+        visit(ParamInfo{.id = "direction", .label = "Direction", .min = -1, .tip = "Where the noise goes; y is up."},
+              self.direction);
     }
     bool operator==(const FrizzParams&) const = default;
 };
@@ -274,7 +306,10 @@ struct HairParams {
     ColourParams colour{};
     FrizzParams frizz{};
     KinkParams kink{};
+    StrandParams strands{};
+    std::vector<Modifier> modifiers{};  ///< in the order in which they work
 
+    /// The blocks that every group has.
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
         visit(BlockInfo{"general", "General", "Where hair grows, how it follows the guides, length and width."},
@@ -282,6 +317,16 @@ struct HairParams {
         visit(BlockInfo{"colour", "Colour", "Colour and opacity from root to tip."}, self.colour);
         visit(BlockInfo{"frizz", "Frizz", "One random push a hair: flyaways and fullness."}, self.frizz);
         visit(BlockInfo{"kink", "Kink", "A random push at every vertex: waves and crinkle."}, self.kink);
+        visit(BlockInfo{"strands", "Strands", "Several hairs around each one: wisps, tufts and wool."}, self.strands);
+    }
+    /// Those and every modifier, whose block has the id "modifiers/NAME" (good during the call).
+    template <class Self, class Visit>
+    static void eachWithModifiers(Self& self, Visit&& visit) {
+        each(self, visit);
+        for (auto& modifier : self.modifiers) {
+            const std::string id = "modifiers/" + modifier.name;
+            visit(BlockInfo{id, modifier.name, modifierKinds()[modifier.kind()].tip}, modifier);
+        }
     }
     bool operator==(const HairParams&) const = default;
 };

@@ -92,7 +92,54 @@ json hairParamsToJson(const HairParams& params) {
     HairParams copy = params;
     HairParams::each(
         copy, [&](const BlockInfo& info, auto& block) { object[std::string(info.id)] = blockToJson(paramsOf(block)); });
+    if (!params.modifiers.empty()) object["modifiers"] = modifiersToJson(params.modifiers);
     return object;
+}
+
+json modifiersToJson(const std::vector<Modifier>& list) {
+    json array = json::array();
+    for (Modifier modifier : list) {
+        array.push_back({{"name", modifier.name},
+                         {"kind", std::string(modifierKinds()[modifier.kind()].id)},
+                         {"params", blockToJson(paramsOf(modifier))}});
+    }
+    return array;
+}
+
+void modifiersFromJson(std::vector<Modifier>& list, const json& array, const std::string& where, Problems& problems) {
+    if (!array.is_array()) {
+        problems.push_back(where + ": not a list of modifiers; left out.");
+        return;
+    }
+    const auto text = [](const json& entry, const char* key) {
+        return entry.contains(key) && entry[key].is_string() ? entry[key].get<std::string>() : std::string();
+    };
+    list.clear();
+    for (const json& entry : array) {
+        if (list.size() >= Modifier::most) {
+            problems.push_back(where + ": more than " + std::to_string(Modifier::most) +
+                               " modifiers; those beyond are left out.");
+            return;
+        }
+        const std::string given = entry.is_object() ? text(entry, "name") : std::string();
+        const auto kind = modifierKind(entry.is_object() ? text(entry, "kind") : std::string());
+        if (!kind) {
+            problems.push_back(where + "/" + given +
+                               ": a modifier of a kind that this version does not have; left out.");
+            continue;
+        }
+        Modifier modifier{freeModifierName(list, given)};
+        if (modifier.name != given)
+            problems.push_back(where + "/" + given + ": not a name of its own; now \"" + modifier.name + "\".");
+        modifier.params = defaultModifierParams(*kind);
+        for (const auto& [key, value] : entry.items()) {
+            if (key != "name" && key != "kind" && key != "params")
+                problems.push_back(where + "/" + modifier.name + ": unknown key \"" + key + "\"; left out.");
+        }
+        if (entry.contains("params"))
+            blockFromJson(paramsOf(modifier), entry["params"], where + "/" + modifier.name, problems);
+        list.push_back(std::move(modifier));
+    }
 }
 
 void hairParamsFromJson(HairParams& params, const json& object, const std::string& where, Problems& problems) {
@@ -101,7 +148,8 @@ void hairParamsFromJson(HairParams& params, const json& object, const std::strin
         return;
     }
     for (const auto& [key, value] : object.items()) {
-        bool known = false;
+        bool known = key == "modifiers";
+        if (known) modifiersFromJson(params.modifiers, value, where + "/modifiers", problems);
         HairParams::each(params,
                          [&, name = std::string_view(key), stored = &value](const BlockInfo& info, auto& block) {
                              if (info.id != name) return;

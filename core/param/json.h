@@ -20,6 +20,11 @@ void blockFromJson(std::span<const ParamRef> params, const nlohmann::json& json,
 
 nlohmann::json hairParamsToJson(const HairParams& params);
 void hairParamsFromJson(HairParams& params, const nlohmann::json& json, const std::string& where, Problems& problems);
+/// A list of modifiers: [{"name", "kind", "params"}]. Reading replaces `list`; modifiers of unknown kinds and those
+/// beyond Modifier::most are left out, names that are none or taken are changed, and `problems` tells.
+nlohmann::json modifiersToJson(const std::vector<Modifier>& list);
+void modifiersFromJson(std::vector<Modifier>& list, const nlohmann::json& json, const std::string& where,
+                       Problems& problems);
 nlohmann::json countsToJson(const CountParams& counts);
 void countsFromJson(CountParams& counts, const nlohmann::json& json, const std::string& where, Problems& problems);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/param/param.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -141,6 +142,7 @@ struct Setter {
     Result<void> operator()(DrivenVector* target) const { return setVector(info, target->value, value, true); }
     Result<void> operator()(DrivenColour* target) const { return setVector(info, target->value, value, false); }
     Result<void> operator()(Colour* target) const { return setVector(info, target->value, value, false); }
+    Result<void> operator()(Vector* target) const { return setVector(info, target->value, value, true); }
     Result<void> operator()(MapName* target) const {
         const auto* text = std::get_if<std::string>(&value);
         if (!text) return wrongType(info, "the name of a map");
@@ -180,6 +182,7 @@ ParamValue paramValue(const ParamRef& param) {
         ParamValue operator()(const DrivenVector* v) const { return v->value; }
         ParamValue operator()(const DrivenColour* v) const { return v->value; }
         ParamValue operator()(const Colour* v) const { return v->value; }
+        ParamValue operator()(const Vector* v) const { return v->value; }
         ParamValue operator()(const MapName* v) const { return v->name; }
         ParamValue operator()(const Choice* v) const {
             const auto index = static_cast<std::size_t>(v->index);
@@ -199,6 +202,28 @@ std::string* paramMap(const ParamRef& param) {
     if (const auto* v = std::get_if<DrivenColour*>(&param.target)) return &(*v)->map;
     if (const auto* v = std::get_if<MapName*>(&param.target)) return &(*v)->name;
     return nullptr;
+}
+
+bool isDriven(const ParamRef& param) {
+    return std::holds_alternative<Driven*>(param.target) || std::holds_alternative<DrivenVector*>(param.target) ||
+           std::holds_alternative<DrivenColour*>(param.target);
+}
+
+void scaleLengths(std::span<const ParamRef> params, float factor) {
+    for (const ParamRef& param : params) {
+        const bool length = param.info.unit == "mm";
+        if (!length && param.info.unit != "per metre") continue;
+        const auto scaled = [&](float value) {
+            const float wanted = length ? value * factor : value / factor;
+            const auto least = static_cast<float>(param.info.min), most = static_cast<float>(param.info.max);
+            return std::isfinite(wanted) ? std::clamp(wanted, least, most) : value;
+        };
+        if (auto* const* number = std::get_if<float*>(&param.target)) **number = scaled(**number);
+        if (auto* const* driven = std::get_if<Driven*>(&param.target)) (*driven)->value = scaled((*driven)->value);
+        if (auto* const* vector = std::get_if<DrivenVector*>(&param.target)) {
+            for (int axis = 0; axis < 3; ++axis) (*vector)->value[axis] = scaled((*vector)->value[axis]);
+        }
+    }
 }
 
 std::string paramText(const ParamValue& value) {

@@ -56,6 +56,12 @@ struct Colour {
     bool operator==(const Colour&) const = default;
 };
 
+/// A direction or another vector without a map.
+struct Vector {
+    glm::vec3 value{0.0f};
+    bool operator==(const Vector&) const = default;
+};
+
 /// The name of a map of the groom, or empty.
 struct MapName {
     std::string name{};
@@ -91,10 +97,18 @@ struct BlockInfo {
 
 /// A parameter of a living block: its declaration and where its value is. Good while the block lives in its place.
 struct ParamRef {
-    using Target = std::variant<bool*, int*, float*, Driven*, DrivenVector*, DrivenColour*, Colour*, MapName*, Choice*>;
+    using Target =
+        std::variant<bool*, int*, float*, Driven*, DrivenVector*, DrivenColour*, Colour*, Vector*, MapName*, Choice*>;
     ParamInfo info;
     Target target;
 };
+
+/// True for a value that a map multiplies; a bare MapName is none.
+bool isDriven(const ParamRef& param);
+
+/// Multiplies lengths ("mm") by `factor` and divides frequencies ("per metre") by it, within their ranges: defaults are
+/// for a head of 0.35 m.
+void scaleLengths(std::span<const ParamRef> params, float factor);
 
 /// A value on its way in or out: from a script, a file, a form or to an undo text.
 using ParamValue = std::variant<bool, double, glm::vec3, std::string>;

@@ -24,10 +24,10 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-/// A path taken apart: `group` is -1 for counts.
+/// A path taken apart: `group` is -1 for counts; `block` is "modifiers/NAME" for a modifier.
 struct Place {
     int group = -1;
-    std::string_view block;
+    std::string block;
     std::string_view param;
     bool map = false;
 };
@@ -46,8 +46,11 @@ Result<Place> parsePath(const Groom& groom, std::string_view path) {
     if (words[0] != "groups" && words[0] != "counts") {
         return Error{"\"" + std::string(path) + "\": paths begin with counts/ or groups/."};
     }
-    if (words[0] != "groups" || words.size() != 4) {
-        return Error{"\"" + std::string(path) + "\": write counts/PARAMETER or groups/GROUP/BLOCK/PARAMETER."};
+    const bool modifier = words.size() > 2 && words[2] == "modifiers";
+    if (words[0] != "groups" || words.size() != (modifier ? 5u : 4u)) {
+        return Error{"\"" + std::string(path) +
+                     "\": write counts/PARAMETER, groups/GROUP/BLOCK/PARAMETER or "
+                     "groups/GROUP/modifiers/MODIFIER/PARAMETER."};
     }
     place.group = groom.groupIndex(words[1]);
     if (place.group < 0) {
@@ -55,8 +58,9 @@ Result<Place> parsePath(const Groom& groom, std::string_view path) {
         for (const Group& group : *groom.groups) names.push_back(group.name);
         return Error{"There is no group \"" + std::string(words[1]) + "\"; groups are " + listed(names) + "."};
     }
-    place.block = words[2];
-    place.param = words[3];
+    place.block = std::string(words[2]);
+    if (modifier) place.block += "/" + std::string(words[3]);
+    place.param = words.back();
     return place;
 }
 
@@ -67,7 +71,7 @@ Result<void> withParam(CountParams& counts, HairParams* hair, const Place& place
     std::string parent = "counts";
     if (hair) {
         std::vector<std::string> blocks;
-        HairParams::each(*hair, [&](const BlockInfo& info, auto& block) {
+        HairParams::eachWithModifiers(*hair, [&](const BlockInfo& info, auto& block) {
             blocks.emplace_back(info.id);
             if (info.id == place.block) refs = paramsOf(block);
         });
@@ -165,7 +169,7 @@ std::vector<std::string> groomPaths(const Groom& groom) {
     for (const ParamRef& ref : paramsOf(counts)) paths.push_back("counts/" + std::string(ref.info.id));
     for (const Group& group : *groom.groups) {
         HairParams params = group.params;
-        HairParams::each(params, [&](const BlockInfo& info, auto& block) {
+        HairParams::eachWithModifiers(params, [&](const BlockInfo& info, auto& block) {
             for (const ParamRef& ref : paramsOf(block)) {
                 paths.push_back("groups/" + group.name + "/" + std::string(info.id) + "/" + std::string(ref.info.id));
             }
@@ -218,6 +222,18 @@ std::string parameterReference() {
     HairParams::each(hair, [&](const BlockInfo& info, auto& block) {
         writeBlock(out, "groups/GROUP/" + std::string(info.id) + "/", info.label, info.tip, paramsOf(block));
     });
+    out << "# Modifiers\n\nA group has a list of modifiers, which work on its hairs from top to bottom, after the "
+           "blocks "
+           "above and before strands and the cut. `MODIFIER` stands for the name of one; each kind may be there many "
+           "times.\n\n";
+    const std::vector<BlockInfo> kinds = modifierKinds();
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        Modifier modifier;
+        modifier.params = defaultModifierParams(kind);
+        writeBlock(out, "groups/GROUP/modifiers/MODIFIER/",
+                   std::string(kinds[kind].label) + " (`" + std::string(kinds[kind].id) + "`)", kinds[kind].tip,
+                   paramsOf(modifier));
+    }
     return std::move(out).str();
 }
 

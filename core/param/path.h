@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters by path: "counts/hairs", "groups/crown/frizz/tip", "groups/crown/frizz/tip/map".
+// Parameters by path: "counts/hairs", "groups/crown/frizz/tip", "groups/crown/frizz/tip/map",
+// "groups/crown/modifiers/locks/tightness".
 #pragma once
 
 #include "core/base/result.h"
@@ -14,7 +15,7 @@ namespace whorl {
 struct Groom;
 
 /// The value at `path` as it stands. Errors name the nearest valid part ("groups/crown has no block friz; blocks are
-/// general, colour, frizz, kink").
+/// general, colour, frizz, kink, strands").
 Result<ParamValue> groomValue(const Groom& groom, std::string_view path);
 
 /// Sets the value at `path`; with "/map" at the end, the name of the map ("" takes it off; the map must exist).

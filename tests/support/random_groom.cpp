@@ -60,6 +60,7 @@ struct Randomise {
     void operator()(const ParamInfo& info, DrivenVector& value) { value = {threeWithin(info), anyOf(dataMaps)}; }
     void operator()(const ParamInfo& info, DrivenColour& value) { value = {threeWithin(info), anyOf(colourMaps)}; }
     void operator()(const ParamInfo& info, Colour& value) { value = {threeWithin(info)}; }
+    void operator()(const ParamInfo& info, Vector& value) { value = {threeWithin(info)}; }
     void operator()(const ParamInfo&, MapName& value) { value = {anyOf(dataMaps)}; }
     void operator()(const ParamInfo& info, Choice& value) {
         value = {dice.below(static_cast<int>(info.choices.size()))};
@@ -116,6 +117,7 @@ struct Digest {
     void param(const DrivenVector& value) { vector(value.value), text(value.map); }
     void param(const DrivenColour& value) { vector(value.value), text(value.map); }
     void param(const Colour& value) { vector(value.value); }
+    void param(const Vector& value) { vector(value.value); }
     void param(const MapName& value) { text(value.name); }
     void param(const Choice& value) { number(value.index); }
 
@@ -208,6 +210,15 @@ Groom randomGroom(std::uint32_t seed) {
         HairParams::each(group.params, randomise);
         group.params.general.segments = 2 + dice.below(14);
         group.params.general.density.value = std::max(group.params.general.density.value, 0.05f);
+        group.params.strands.hairs = dice.chance(0.3f) ? 1 + dice.below(4) : 0;
+        for (int i = dice.below(4); i > 0; --i) {
+            const auto kind = static_cast<std::size_t>(dice.below(static_cast<int>(modifierKindCount)));
+            Modifier modifier{freeModifierName(group.params.modifiers, modifierKinds()[kind].id)};
+            modifier.params = defaultModifierParams(kind);
+            Modifier::each(modifier, randomise);
+            modifier.on = dice.chance(0.8f);
+            group.params.modifiers.push_back(std::move(modifier));
+        }
     }
     CountParams& counts = groom.counts.edit();
     CountParams::each(counts, randomise);
@@ -245,7 +256,7 @@ std::uint64_t groomDigest(const Groom& groom) {
     digest.number(groom.groups->size());
     for (const Group& group : *groom.groups) {
         digest.text(group.name);
-        HairParams::each(group.params, digest);
+        HairParams::eachWithModifiers(group.params, digest);
     }
     CountParams::each(*groom.counts, digest);
     return hasher.digest();

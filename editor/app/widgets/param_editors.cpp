@@ -196,6 +196,7 @@ ParamEditor* makeParamEditor(const ParamRef& param, ParamSource& source, QWidget
         ParamEditor* operator()(DrivenVector*) const { return new VectorEditor(param, parent); }
         ParamEditor* operator()(DrivenColour*) const { return new ColourEditor(param, parent); }
         ParamEditor* operator()(Colour*) const { return new ColourEditor(param, parent); }
+        ParamEditor* operator()(Vector*) const { return new VectorEditor(param, parent); }
         ParamEditor* operator()(MapName*) const { return new MapNameEditor(param, source, parent); }
         ParamEditor* operator()(Choice*) const { return new ChoiceEditor(param, parent); }
     };

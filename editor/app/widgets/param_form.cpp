@@ -17,10 +17,6 @@ bool isColour(const ParamRef& param) {
     return std::holds_alternative<DrivenColour*>(param.target);
 }
 
-bool isDriven(const ParamRef& param) {
-    return paramMap(param) && !std::holds_alternative<MapName*>(param.target);
-}
-
 QToolButton* smallButton(const char* picture, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setIcon(icon(picture));
