@@ -6,6 +6,7 @@
 #include "editor/app/actions.h"
 #include "editor/app/document.h"
 #include "editor/app/editor_state.h"
+#include "editor/app/paint_map.h"
 #include "editor/app/progress_task.h"
 #include "editor/app/viewport/viewport.h"
 #include "editor/app/widgets/message_bar.h"
@@ -32,6 +33,11 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
     actions.on("groom.clear_guides", this, [this] { clearGuides(); });
     actions.on("groom.paint_density", this, [this] { paintDensity(); });
     actions.on("groom.new_seed", this, [this] { newSeed(); });
+    for (const BrushInfo& brush : brushes()) {
+        if (brush.paintsMap) {
+            actions.on("tool." + qtext(brush.id), this, [this] { choosePaintMap(m_document, m_state, true); });
+        }
+    }
     connect(&document, &Document::changed, this, &GroomActions::refresh);
     connect(&document.history(), &QUndoStack::indexChanged, this, &GroomActions::refresh);
     refresh();
@@ -39,6 +45,8 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
 
 void GroomActions::refresh() {
     const bool open = m_document.hasGroom();
+    // Another document, or an undo, may have taken the painted map away.
+    if (m_state.brush() && m_state.brush()->paintsMap) choosePaintMap(m_document, m_state, false);
     for (const ActionInfo& row : m_actions.table()) {
         if (row.kind == ActionInfo::Held) continue;
         const bool needsGroom = row.id.startsWith("groom.") || row.id.startsWith("file.save") ||
@@ -81,16 +89,7 @@ void GroomActions::clearGuides() {
 }
 
 void GroomActions::paintDensity() {
-    constexpr int mapSize = 1024;
-    Groom after = m_document.committed();
-    // Black where nothing grows yet; with guides there, hair is to be taken away rather than added.
-    const float fill = after.guides.empty() ? 0.0f : 1.0f;
-    const std::string map =
-        ensureDensityMap(after, static_cast<std::size_t>(std::max(m_state.group(), 0)), mapSize, fill);
-    if (!after.sameAs(m_document.committed())) m_document.edit(std::move(after), tr("New density map"));
-    BrushOptions options = m_state.brushOptions();
-    options.map.name = map;
-    m_state.setBrushOptions(options);
+    paintDensityMap(m_document, m_state);
     m_state.setBrush(findBrush("paint"));
 }
 

@@ -192,6 +192,45 @@ private Q_SLOTS:
         QVERIFY(checkGroom(document().committed()).empty());
     }
 
+    void paintChoosesItsMap() {
+        QAction& pick = m_window->actions().get("tool.paint");
+        const auto painted = [&] { return m_window->state().brushOptions().map.name; };
+        const auto stroke = [&] { testing::drag(view(), {centre() - QPoint(30, 0), centre() + QPoint(30, 0)}); };
+        const QString said = m_window->area().messages().sentence();
+        m_window->actions().get("tool.comb").trigger();
+        // No map at all: picking the tool makes the density map of the group.
+        QVERIFY(document().committed().maps.entries().empty());
+        pick.trigger();
+        const std::string density = document().committed().groups->front().params.general.density.map;
+        QVERIFY(!density.empty());
+        QCOMPARE(painted(), density);
+        QCOMPARE(document().history().count(), 1);
+        BrushOptions options = m_window->state().brushOptions();
+        options.value = 0.0f;
+        m_window->state().setBrushOptions(options);
+        stroke();
+        QCOMPARE(m_window->area().messages().sentence(), said);
+        QCOMPARE(document().history().count(), 2);
+        // A map that the artist chose stays chosen.
+        find<QPushButton>("map_add")->click();
+        options.map.name = document().committed().maps.entries().back().name;
+        QVERIFY(options.map.name != density);
+        m_window->state().setBrushOptions(options);
+        m_window->actions().get("tool.comb").trigger();
+        pick.trigger();
+        QCOMPARE(painted(), options.map.name);
+        // When it goes, the density map comes back; when that goes too, a press makes a new one.
+        document().undo();
+        QCOMPARE(painted(), density);
+        document().undo();
+        document().undo();
+        QCOMPARE(painted(), std::string());
+        stroke();
+        QCOMPARE(m_window->area().messages().sentence(), said);
+        QVERIFY(document().committed().maps.find(painted()));
+        QCOMPARE(document().history().count(), 2);
+    }
+
     void brushKeys() {
         view().setFocus();
         QTest::keyClick(&view(), Qt::Key_C);

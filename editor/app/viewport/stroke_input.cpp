@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "editor/app/viewport/stroke_input.h"
 
+#include "editor/app/paint_map.h"
 #include "editor/app/widgets/param_source.h"
 
 namespace whorl {
@@ -18,6 +19,7 @@ Result<void> StrokeInput::begin(const StrokeView& view, const StrokePoint& point
     m_brush = brushFor(m_state, modifiers);
     const std::shared_ptr<const Surface> surface = m_document.surface();
     if (!m_brush || !surface) return {};
+    if (m_brush->paintsMap) choosePaintMap(m_document, m_state, true);
     const BrushSettings settings = m_state.brushOptions().settings(modifiers.testFlag(Qt::ControlModifier));
     Result<Stroke> stroke = Stroke::begin(*m_brush, m_document.committed(), surface, view, settings);
     if (!stroke) return stroke.error();

@@ -13,10 +13,10 @@ namespace whorl {
 
 class StrokeInput {
 public:
-    StrokeInput(Document& document, const EditorState& state) : m_document(document), m_state(state) {}
+    StrokeInput(Document& document, EditorState& state) : m_document(document), m_state(state) {}
 
-    /// Starts a stroke with the picked brush (Shift: the smooth brush; Ctrl: the opposite). The error is a sentence of
-    /// the brush, for the artist.
+    /// Starts a stroke with the picked brush (Shift: the smooth brush; Ctrl: the opposite). A brush that paints
+    /// chooses or makes its map first. The error is a sentence of the brush, for the artist.
     Result<void> begin(const StrokeView& view, const StrokePoint& point, Qt::KeyboardModifiers modifiers);
     void move(const StrokePoint& point);
     /// Ends the stroke: one step in the history when it changed anything.
@@ -29,7 +29,7 @@ public:
 
 private:
     Document& m_document;
-    const EditorState& m_state;
+    EditorState& m_state;
     std::optional<Stroke> m_stroke;
     const BrushInfo* m_brush = nullptr;
 };
