@@ -28,15 +28,16 @@ double milliseconds(std::chrono::steady_clock::time_point since) {
 struct Effort {
     HairDetail hair{};
     int samples = 1;
-    float resolution = 1.0f;
     int shadowTaps = 9;
     bool smoothHair = true;
+    float resolution = 1.0f;
     bool litByVertex = false;
+    bool fewGuidePoints = false;
     float lightSlack = 0.0f;  // radians that the light may turn before shadows follow
 };
 
 Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, std::size_t triangles,
-                 const Strands* strands) {
+                 const Strands* strands, glm::ivec2 size) {
     Effort effort;
     effort.samples = std::clamp(settings.samples, 1, std::min(4, context.maxSamples));
     if (effort.samples == 3) effort.samples = 2;
@@ -45,7 +46,10 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, s
         effort.samples = 1;
         effort.shadowTaps = 1;
         effort.smoothHair = false;
-        effort.resolution = 0.67f;
+        effort.fewGuidePoints = true;
+        // Making a small picture large costs as much as drawing a mesh: only where full size would cost more.
+        constexpr float pixels = 1.0e6f;
+        effort.resolution = std::min(1.0f, std::sqrt(pixels / static_cast<float>(size.x * size.y)));
         effort.litByVertex = triangles < 40000;
         effort.lightSlack = 0.15f;
     }
@@ -160,7 +164,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     State& state = *m_state;
     size = glm::max(size, glm::ivec2(1));
     const Strands* hair = settings.showHair ? state.hair.strands() : nullptr;
-    const Effort effort = effortFor(settings, state.context, state.mesh.triangles(), hair);
+    const Effort effort = effortFor(settings, state.context, state.mesh.triangles(), hair, size);
     const glm::ivec2 drawn = glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
 
     state.vertexArray.bind();
@@ -188,7 +192,14 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, state.uploads);
     if (hair != nullptr) state.hair.draw(effort.smoothHair);
     state.vertexArray.bind();
-    if (settings.showGuides) state.guides.draw(overlay, size);
+    if (settings.showGuides) {
+        // Around the middle of the model, as deep as a quarter of it.
+        const Bounds model = state.surface != nullptr ? state.surface->bounds : bounds;
+        const glm::vec3 forward = glm::normalize(camera.target - camera.eye());
+        const float middle = glm::dot(model.centre() - camera.eye(), forward);
+        const float depth = glm::length(model.size()) * 0.125f;
+        state.guides.draw(overlay, size, {middle - 0.5f * depth, middle + depth}, effort.fewGuidePoints);
+    }
     state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);
     state.drawTimer.end();

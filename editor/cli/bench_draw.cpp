@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 #include <numeric>
 
@@ -26,6 +27,7 @@ namespace {
 constexpr glm::ivec2 frameSize(1280, 720);
 constexpr int hairCount = 10000;
 constexpr int verticesPerHair = 16;
+constexpr int processorRuns = 7;
 constexpr float ballRadius = 0.09f;
 
 SurfaceMesh ball() {
@@ -195,21 +197,34 @@ void benchFrames(std::vector<BenchRow>& rows, const Groom& groom, const std::sha
     ViewSettings bald = still;
     bald.showHair = false;
     const double ofHair = difference(full, picture(bald));
+    Groom combed = groom;
+    for (std::size_t hair = 0; hair < strands->count(); hair += 5) {
+        const std::span all(strands->positions);
+        combed.guides.append(strands->roots[hair], 0, all.subspan(strands->firstVertex[hair], verticesPerHair));
+    }
     struct Kind {
         const char* name;
         bool interactive;
         int samples;
+        bool guides;
     };
-    for (const Kind kind : {Kind{"while the view moves", true, 4}, Kind{"still, 1 sample", false, 1},
-                            Kind{"still, 4 samples", false, 4}}) {
+    for (const Kind kind :
+         {Kind{"while the view moves", true, 4, false}, Kind{"while combing 2,000 guides", true, 4, true},
+          Kind{"still, 1 sample", false, 1, false}, Kind{"still, 4 samples", false, 4, false}}) {
+        renderer.setGroom(kind.guides ? combed : groom, surface);
         ViewSettings settings = still;
+        settings.showGuides = kind.guides;
+        OverlayState overlay;
+        overlay.showBrush = kind.guides;
+        overlay.brushPixel = glm::vec2(frameSize) * 0.5f;
+        overlay.brushRadius = 60.0f;
         settings.interactive = kind.interactive;
         settings.samples = kind.samples;
-        const double ofQuick = difference(full, picture(settings));
+        const double ofQuick = kind.guides ? 0.0 : difference(full, picture(settings));
         // The view turns a little before every frame, so that nothing is kept from the last one.
         const auto ours = [&] {
             camera.orbit(glm::vec2(1.0f, 0.0f));
-            renderer.draw(camera, settings, {}, target.target(), frameSize);
+            renderer.draw(camera, settings, overlay, target.target(), frameSize);
             gl::finish();
         };
         const auto baseline = [&] {
@@ -217,6 +232,9 @@ void benchFrames(std::vector<BenchRow>& rows, const Groom& groom, const std::sha
             gl::finish();
         };
         const Medians medians = interleaved(ours, baseline);
+        const std::clock_t before = std::clock();
+        for (int i = 0; i < processorRuns; ++i) ours();
+        const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC / processorRuns;
         BenchRow row;
         row.name = std::string("draw/10k hairs x 16, 1280x720, ") + kind.name;
         row.seconds = medians.ours;
@@ -227,7 +245,8 @@ void benchFrames(std::vector<BenchRow>& rows, const Groom& groom, const std::sha
         // Hair changes the picture, and the quick one is much nearer to the full one than the bald ball is. Not the
         // mean light: hair may be as bright as what it covers.
         row.correct = ofHair > 2.0 && ofQuick < 0.5 * ofHair;
-        row.note = renderer.software() ? "no graphics card" : "graphics card";
+        row.note = (renderer.software() ? "no graphics card, " : "graphics card, ") +
+                   std::to_string(std::lround(processor * 1000.0)) + " ms of processor time";
         rows.push_back(row);
     }
 }

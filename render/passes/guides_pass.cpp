@@ -20,7 +20,28 @@ std::vector<glm::vec4> pointsOf(const GuideBlock& block) {
     return points;
 }
 
+constexpr std::uint32_t fewPieces = 5;
+
 }  // namespace
+
+GuidesPass::Lines GuidesPass::linesThrough(const std::vector<std::uint32_t>& firstPoint, std::uint32_t pieces) {
+    std::vector<std::uint32_t> points;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t guide = 0; guide + 1 < firstPoint.size(); ++guide) {
+        const std::uint32_t last = firstPoint[guide + 1] - firstPoint[guide] - 1;
+        const std::uint32_t steps = std::min(last, pieces);
+        for (std::uint32_t step = 0; step <= steps; ++step) {
+            const auto vertex = static_cast<std::uint32_t>(2 * points.size());
+            points.push_back(firstPoint[guide] + (steps > 0 ? step * last / steps : 0));
+            if (step == steps) continue;
+            for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(vertex + corner);
+        }
+    }
+    Lines lines{gl::Buffer("drawn guide points"), gl::Buffer("guide ribbons"), indices.size()};
+    lines.points.upload(points);
+    lines.indices.upload(indices);
+    return lines;
+}
 
 Result<GuidesPass> GuidesPass::create() {
     GuidesPass pass;
@@ -31,31 +52,44 @@ Result<GuidesPass> GuidesPass::create() {
     pass.m_lines = std::move(*lines);
     pass.m_roots = std::move(*roots);
     pass.m_points = gl::Buffer("guide points");
+    pass.m_rootPoints = gl::Buffer("guide roots");
     return pass;
 }
 
 void GuidesPass::setGuides(const GuideSet& guides, Uploads& uploads) {
     if (guides.sameAs(m_guides)) return;
-    std::vector<std::size_t> firstPoint{0};
+    std::vector<std::size_t> blockStart{0};
+    std::vector<std::uint32_t> firstPoint;
     for (std::size_t i = 0; i < guides.blockCount(); ++i) {
-        firstPoint.push_back(firstPoint.back() + guides.block(i).points.size());
+        const GuideBlock& block = guides.block(i);
+        const auto start = static_cast<std::uint32_t>(blockStart.back());
+        for (std::size_t guide = 0; guide < block.count(); ++guide)
+            firstPoint.push_back(start + block.firstPoint[guide]);
+        blockStart.push_back(blockStart.back() + block.points.size());
     }
-    const bool all = firstPoint != m_firstPoint;
-    if (all) m_points.reserve(firstPoint.back() * sizeof(glm::vec4));
+    const std::vector<std::uint32_t> roots = firstPoint;
+    firstPoint.push_back(static_cast<std::uint32_t>(blockStart.back()));
+    const bool all = firstPoint != m_firstPoint || blockStart != m_blockStart;
+    if (all) {
+        m_points.reserve(blockStart.back() * sizeof(glm::vec4));
+        m_all = linesThrough(firstPoint, 0xffffffffu);
+        m_few = linesThrough(firstPoint, fewPieces);
+        m_rootPoints.upload(roots);
+    }
     for (std::size_t i = 0; i < guides.blockCount(); ++i) {
         if (!all && guides.blockSameAs(i, m_guides)) continue;
         const std::vector<glm::vec4> points = pointsOf(guides.block(i));
-        m_points.update(firstPoint[i] * sizeof(glm::vec4), points.data(), points.size() * sizeof(glm::vec4));
+        m_points.update(blockStart[i] * sizeof(glm::vec4), points.data(), points.size() * sizeof(glm::vec4));
         ++uploads.guideBlocks;
         uploads.bytes += points.size() * sizeof(glm::vec4);
     }
+    m_blockStart = std::move(blockStart);
     m_firstPoint = std::move(firstPoint);
     m_guides = guides;
 }
 
-void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size) {
+void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size, glm::vec2 fade, bool coarse) {
     if (m_guides.empty()) return;
-    const std::size_t points = m_firstPoint.back();
     m_points.bindStorage(0);
     gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
     // As shares of the picture, which may be drawn smaller than shown; from the bottom left, as clip space has it.
@@ -67,17 +101,22 @@ void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size) {
         program->set("shownHeight", shown.y);
         program->set("opacityNear", 0.6f);
         program->set("opacityFar", 0.07f);
+        program->set("fade", fade);
     }
     m_lines.set("halfWidth", 0.6f);
     m_lines.set("rootColour", glm::vec3(0.95f, 0.42f, 0.08f));
     m_lines.set("tipColour", glm::vec3(1.0f, 0.85f, 0.35f));
     m_lines.use();
-    gl::drawTriangles(0, (points - 1) * 6);
+    const Lines& lines = coarse ? m_few : m_all;
+    lines.points.bindStorage(1);
+    lines.indices.bindIndices();
+    gl::drawIndexed32(lines.indexCount);
     m_roots.set("halfWidth", 1.5f);
     m_roots.set("rootColour", glm::vec3(0.10f, 0.75f, 0.95f));
     m_roots.set("tipColour", glm::vec3(0.10f, 0.75f, 0.95f));
     m_roots.use();
-    gl::drawTriangles(0, points * 6);
+    m_rootPoints.bindStorage(1);
+    gl::drawTriangles(0, (m_firstPoint.size() - 1) * 6);
 }
 
 }  // namespace whorl

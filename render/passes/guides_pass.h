@@ -15,12 +15,25 @@ public:
     static Result<GuidesPass> create();
     /// Uploads the blocks that differ from the last call; all of them when counts of points changed.
     void setGuides(const GuideSet& guides, Uploads& uploads);
-    /// Strong at the brush and faint elsewhere, so that the hair stays in sight; everywhere faint without a brush.
-    void draw(const OverlayState& overlay, glm::ivec2 size);
+    /// Strong at the brush and faint elsewhere, so that the hair stays in sight; everywhere faint without a brush, and
+    /// fainter from depth `fade.x` to `fade.y` and beyond. `coarse`: through fewer points.
+    void draw(const OverlayState& overlay, glm::ivec2 size, glm::vec2 fade, bool coarse);
 
 private:
+    // The points that are drawn, guide by guide, and the ribbons between them.
+    struct Lines {
+        gl::Buffer points;
+        gl::Buffer indices;
+        std::size_t indexCount = 0;
+    };
+    static Lines linesThrough(const std::vector<std::uint32_t>& firstPoint, std::uint32_t pieces);
+
     GuideSet m_guides;
-    std::vector<std::size_t> m_firstPoint;  // of each block, and the end
+    std::vector<std::size_t> m_blockStart;    // first point of each block, and the end
+    std::vector<std::uint32_t> m_firstPoint;  // of each guide, and the end
+    Lines m_all;
+    Lines m_few;
+    gl::Buffer m_rootPoints;
     gl::Program m_lines;
     gl::Program m_roots;
     gl::Buffer m_points;

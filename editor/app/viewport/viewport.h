@@ -34,6 +34,8 @@ public:
 
     /// What the next press would do, in words; changes with tool and held keys.
     QString hint() const;
+    /// Hair is being generated.
+    bool busy() const { return m_hair.busy(); }
     /// Nothing is being generated, and the picture is the final one.
     bool settled() const;
     std::shared_ptr<const Strands> strands() const { return m_strands; }
