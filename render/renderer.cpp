@@ -29,24 +29,26 @@ struct Effort {
     HairDetail hair{};
     int samples = 1;
     int shadowTaps = 9;
-    bool smoothHair = true;
+    bool byProcessor = false;
+    bool quickHair = false;
     float resolution = 1.0f;
     bool litByVertex = false;
-    bool fewGuidePoints = false;
+    std::uint32_t guidePieces = 255;
     float lightSlack = 0.0f;  // radians that the light may turn before shadows follow
 };
 
 Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, std::size_t triangles,
-                 const Strands* strands, glm::ivec2 size) {
+                 const Strands* strands, glm::ivec2 size, bool byProcessor) {
     Effort effort;
+    effort.byProcessor = byProcessor;
     effort.samples = std::clamp(settings.samples, 1, std::min(4, context.maxSamples));
     if (effort.samples == 3) effort.samples = 2;
     const bool reduced = settings.interactive && context.software;
     if (reduced) {
         effort.samples = 1;
         effort.shadowTaps = 1;
-        effort.smoothHair = false;
-        effort.fewGuidePoints = true;
+        effort.quickHair = true;
+        effort.guidePieces = 7;
         // Making a small picture large costs as much as drawing a mesh: only where full size would cost more.
         constexpr float pixels = 1.0e6f;
         effort.resolution = std::min(1.0f, std::sqrt(pixels / static_cast<float>(size.x * size.y)));
@@ -56,15 +58,13 @@ Effort effortFor(const ViewSettings& settings, const gl::ContextInfo& context, s
     if (strands != nullptr && strands->count() > 0) {
         const std::size_t count = strands->count();
         const std::size_t pieces = std::max<std::size_t>(strands->vertexCount() / count, 2) - 1;
+        const std::size_t most = reduced ? 7 : 255;
+        effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min(pieces, most)) + 1;
         if (reduced) {
-            constexpr std::size_t segments = 18000;
-            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 5)) + 1;
+            constexpr std::size_t segments = 48000;
             const std::size_t hairs = std::max<std::size_t>(segments / (effort.hair.pointsPerHair - 1), 1);
             effort.hair.stride = static_cast<std::uint32_t>((count + hairs - 1) / hairs);
-        } else {
-            effort.hair.pointsPerHair = static_cast<std::uint32_t>(std::min<std::size_t>(pieces, 255)) + 1;
         }
-        effort.hair.wholeHairs = reduced;
         const float drawn = static_cast<float>(effort.hair.hairs(*strands));
         const float fuller = std::pow(std::max(settings.fullCount / static_cast<float>(count), 1.0f), 0.6f);
         effort.hair.widthScale = std::min(fuller, 3.0f) * std::pow(static_cast<float>(count) / drawn, 0.8f);
@@ -86,6 +86,9 @@ struct Renderer::State {
     gl::Buffer sceneBuffer;
     gl::TimerQuery shadowTimer;
     gl::TimerQuery drawTimer;
+    StrandRaster raster{};
+    GuideRibbons guideRibbons{};
+    bool byProcessor = false;
 
     Groom groom{};
     std::shared_ptr<const Surface> surface{};
@@ -126,6 +129,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
                                                          std::move(*guides), std::move(*hair), ShadowPass(),
                                                          std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
                                                          gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    renderer->m_state->byProcessor = renderer->m_state->context.software;
     return renderer;
 }
 
@@ -164,7 +168,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     State& state = *m_state;
     size = glm::max(size, glm::ivec2(1));
     const Strands* hair = settings.showHair ? state.hair.strands() : nullptr;
-    const Effort effort = effortFor(settings, state.context, state.mesh.triangles(), hair, size);
+    const Effort effort = effortFor(settings, state.context, state.mesh.triangles(), hair, size, state.byProcessor);
     const glm::ivec2 drawn = glm::max(glm::ivec2(glm::vec2(size) * effort.resolution + 0.5f), glm::ivec2(1));
 
     state.vertexArray.bind();
@@ -183,22 +187,36 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     state.sceneBuffer.upload(&scene, sizeof(scene));
     state.sceneBuffer.bindUniform(0);
     state.shadows.bind();
-    if (hair != nullptr) {
-        const glm::vec3 forward = glm::normalize(camera.target - camera.eye());
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye());
+    // Guides fade around the middle of the model, as deep as a quarter of it.
+    const Bounds model = state.surface != nullptr ? state.surface->bounds : bounds;
+    const float middle = glm::dot(model.centre() - camera.eye(), forward);
+    const float depth = glm::length(model.size()) * 0.125f;
+    GuideLook look;
+    look.fade = {middle - 0.5f * depth, middle + depth};
+
+    if (hair != nullptr && effort.byProcessor) {
+        state.hair.preparePoints(effort.hair, camera.eye(), forward, effort.quickHair);
+    } else if (hair != nullptr) {
         state.hair.prepare(effort.hair, camera.eye(), forward);
     }
     state.picture.begin(drawn, effort.samples);
     state.picture.drawBackground(settings);
     if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, state.uploads);
-    if (hair != nullptr) state.hair.draw(effort.smoothHair);
-    state.vertexArray.bind();
-    if (settings.showGuides) {
-        // Around the middle of the model, as deep as a quarter of it.
-        const Bounds model = state.surface != nullptr ? state.surface->bounds : bounds;
-        const glm::vec3 forward = glm::normalize(camera.target - camera.eye());
-        const float middle = glm::dot(model.centre() - camera.eye(), forward);
-        const float depth = glm::length(model.size()) * 0.125f;
-        state.guides.draw(overlay, size, {middle - 0.5f * depth, middle + depth}, effort.fewGuidePoints);
+    if (!effort.byProcessor) {
+        if (hair != nullptr) state.hair.draw();
+        state.vertexArray.bind();
+        if (settings.showGuides) state.guides.draw(overlay, size, look);
+    } else if (hair != nullptr || (settings.showGuides && !state.groom.guides.empty())) {
+        state.raster.begin(drawn, state.picture.resolveDepth(), scene.pixel.z);
+        if (hair != nullptr) state.raster.add(state.hair.points(), state.hair.segments());
+        if (settings.showGuides) {
+            makeGuideRibbons(state.groom.guides, effort.guidePieces, scene, overlay, look, drawn, size,
+                             state.guideRibbons);
+            state.raster.add(state.guideRibbons.points, state.guideRibbons.segments);
+        }
+        state.raster.draw();
+        state.picture.drawLayer(state.raster);
     }
     state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);
@@ -223,6 +241,10 @@ Renderer::Timing Renderer::timing() const {
 
 const Uploads& Renderer::uploads() const {
     return m_state->uploads;
+}
+
+void Renderer::setHairByProcessor(bool on) {
+    m_state->byProcessor = on;
 }
 
 bool Renderer::software() const {

@@ -51,6 +51,9 @@ public:
     const Uploads& uploads() const;
     /// Drawn by the processor, without a graphics card: draw with ViewSettings::interactive while the view moves.
     bool software() const;
+    /// Hair and guides are drawn by the processor, many times faster than triangles are without a graphics card: so it
+    /// is where `software` says so. Both ways give the same picture but for rounding.
+    void setHairByProcessor(bool on);
 
 private:
     Renderer();

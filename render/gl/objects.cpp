@@ -39,6 +39,8 @@ FormatInfo info(Format format) {
             return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
         case Format::Rgba16F:
             return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
+        case Format::Rgba16:
+            return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT};
         case Format::Depth24:
             return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
         case Format::Depth32F:
@@ -98,6 +100,12 @@ void Buffer::update(std::size_t offset, const void* data, std::size_t bytes) {
     if (bytes > 0) {
         glNamedBufferSubData(m_name.get(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
     }
+}
+
+void Buffer::read(void* data, std::size_t bytes) const {
+    assert(bytes <= m_size);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (bytes > 0) glGetNamedBufferSubData(m_name.get(), 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
 void Buffer::bindStorage(unsigned index) const {
@@ -162,6 +170,13 @@ void Texture::upload3D(const void* texels) {
     glTextureSubImage3D(m_name.get(), 0, 0, 0, 0, m_size.x, m_size.y, m_size.z, format.channels, format.type, texels);
 }
 
+void Texture::read(void* texels, std::size_t bytes) const {
+    const FormatInfo format = info(m_format);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(m_name.get(), 0, format.channels, format.type, static_cast<GLsizei>(bytes), texels);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+}
+
 void Texture::makeMipmaps() {
     glGenerateTextureMipmap(m_name.get());
 }
@@ -199,9 +214,9 @@ void Framebuffer::bind() const {
     glViewport(0, 0, m_size.x, m_size.y);
 }
 
-void Framebuffer::resolveTo(const Framebuffer& other) const {
+void Framebuffer::resolveTo(const Framebuffer& other, bool depth) const {
     glBlitNamedFramebuffer(m_name.get(), other.m_name.get(), 0, 0, m_size.x, m_size.y, 0, 0, m_size.x, m_size.y,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                           depth ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::stretchTo(unsigned target, glm::ivec2 size) const {

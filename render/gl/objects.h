@@ -62,6 +62,8 @@ public:
     void reserve(std::size_t bytes);
     /// Overwrites a part inside the present size.
     void update(std::size_t offset, const void* data, std::size_t bytes);
+    /// Waits for what is drawn and copies the first `bytes`, which shaders wrote.
+    void read(void* data, std::size_t bytes) const;
     void bindStorage(unsigned index) const;
     void bindUniform(unsigned index) const;
     void bindIndices() const;
@@ -73,7 +75,7 @@ private:
     std::size_t m_size = 0;
 };
 
-enum class Format { R8, R16, R32F, Rgb8, Rgb8Srgb, Rgb16, Rgb32F, Rgba8, Rgba16F, Depth24, Depth32F };
+enum class Format { R8, R16, R32F, Rgb8, Rgb8Srgb, Rgb16, Rgb32F, Rgba8, Rgba16F, Rgba16, Depth24, Depth32F };
 enum class Wrap { Clamp, Repeat };
 
 /// A texture in two or three dimensions, or a multisampled one.
@@ -90,6 +92,8 @@ public:
     void upload(glm::ivec2 offset, glm::ivec2 size, const void* texels, int rowTexels = 0);
     void upload3D(const void* texels);
     void makeMipmaps();
+    /// Waits for what is drawn and copies all texels, rows from the bottom. Not of multisampled textures.
+    void read(void* texels, std::size_t bytes) const;
     /// Depth textures: sampling compares (sampler2DShadow).
     void compareDepth();
     void bind(unsigned unit) const;
@@ -111,8 +115,8 @@ public:
     Framebuffer(std::string_view label, const Texture* colour, const Texture* depth);
     /// Draws go here, over the whole size.
     void bind() const;
-    /// Copies (and resolves) colour to another of the same size.
-    void resolveTo(const Framebuffer& other) const;
+    /// Copies (and resolves) colour, and depth if wanted, to another of the same size.
+    void resolveTo(const Framebuffer& other, bool depth = false) const;
     /// Copies colour, smoothly scaled, to a framebuffer that others own (0: the window).
     void stretchTo(unsigned target, glm::ivec2 size) const;
     void clearColour(glm::vec4 colour) const;

@@ -20,28 +20,18 @@ std::vector<glm::vec4> pointsOf(const GuideBlock& block) {
     return points;
 }
 
-constexpr std::uint32_t fewPieces = 5;
-
-}  // namespace
-
-GuidesPass::Lines GuidesPass::linesThrough(const std::vector<std::uint32_t>& firstPoint, std::uint32_t pieces) {
-    std::vector<std::uint32_t> points;
+// Two triangles between the two vertices of a point and those of the next one of the same guide.
+std::vector<std::uint32_t> ribbonIndices(const std::vector<std::uint32_t>& firstPoint) {
     std::vector<std::uint32_t> indices;
     for (std::size_t guide = 0; guide + 1 < firstPoint.size(); ++guide) {
-        const std::uint32_t last = firstPoint[guide + 1] - firstPoint[guide] - 1;
-        const std::uint32_t steps = std::min(last, pieces);
-        for (std::uint32_t step = 0; step <= steps; ++step) {
-            const auto vertex = static_cast<std::uint32_t>(2 * points.size());
-            points.push_back(firstPoint[guide] + (steps > 0 ? step * last / steps : 0));
-            if (step == steps) continue;
-            for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(vertex + corner);
+        for (std::uint32_t point = firstPoint[guide]; point + 1 < firstPoint[guide + 1]; ++point) {
+            for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(2 * point + corner);
         }
     }
-    Lines lines{gl::Buffer("drawn guide points"), gl::Buffer("guide ribbons"), indices.size()};
-    lines.points.upload(points);
-    lines.indices.upload(indices);
-    return lines;
+    return indices;
 }
+
+}  // namespace
 
 Result<GuidesPass> GuidesPass::create() {
     GuidesPass pass;
@@ -52,6 +42,7 @@ Result<GuidesPass> GuidesPass::create() {
     pass.m_lines = std::move(*lines);
     pass.m_roots = std::move(*roots);
     pass.m_points = gl::Buffer("guide points");
+    pass.m_indices = gl::Buffer("guide ribbons");
     pass.m_rootPoints = gl::Buffer("guide roots");
     return pass;
 }
@@ -72,8 +63,9 @@ void GuidesPass::setGuides(const GuideSet& guides, Uploads& uploads) {
     const bool all = firstPoint != m_firstPoint || blockStart != m_blockStart;
     if (all) {
         m_points.reserve(blockStart.back() * sizeof(glm::vec4));
-        m_all = linesThrough(firstPoint, 0xffffffffu);
-        m_few = linesThrough(firstPoint, fewPieces);
+        const std::vector<std::uint32_t> indices = ribbonIndices(firstPoint);
+        m_indices.upload(indices);
+        m_indexCount = indices.size();
         m_rootPoints.upload(roots);
     }
     for (std::size_t i = 0; i < guides.blockCount(); ++i) {
@@ -88,7 +80,7 @@ void GuidesPass::setGuides(const GuideSet& guides, Uploads& uploads) {
     m_guides = guides;
 }
 
-void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size, glm::vec2 fade, bool coarse) {
+void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size, const GuideLook& look) {
     if (m_guides.empty()) return;
     m_points.bindStorage(0);
     gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
@@ -99,21 +91,19 @@ void GuidesPass::draw(const OverlayState& overlay, glm::ivec2 size, glm::vec2 fa
     for (gl::Program* program : {&m_lines, &m_roots}) {
         program->set("brush", brush);
         program->set("shownHeight", shown.y);
-        program->set("opacityNear", 0.6f);
-        program->set("opacityFar", 0.07f);
-        program->set("fade", fade);
+        program->set("opacityNear", look.opacityNear);
+        program->set("opacityFar", look.opacityFar);
+        program->set("fade", look.fade);
     }
-    m_lines.set("halfWidth", 0.6f);
-    m_lines.set("rootColour", glm::vec3(0.95f, 0.42f, 0.08f));
-    m_lines.set("tipColour", glm::vec3(1.0f, 0.85f, 0.35f));
+    m_lines.set("halfWidth", look.halfWidth);
+    m_lines.set("rootColour", look.rootColour);
+    m_lines.set("tipColour", look.tipColour);
     m_lines.use();
-    const Lines& lines = coarse ? m_few : m_all;
-    lines.points.bindStorage(1);
-    lines.indices.bindIndices();
-    gl::drawIndexed32(lines.indexCount);
-    m_roots.set("halfWidth", 1.5f);
-    m_roots.set("rootColour", glm::vec3(0.10f, 0.75f, 0.95f));
-    m_roots.set("tipColour", glm::vec3(0.10f, 0.75f, 0.95f));
+    m_indices.bindIndices();
+    gl::drawIndexed32(m_indexCount);
+    m_roots.set("halfWidth", look.rootRadius);
+    m_roots.set("rootColour", look.dotColour);
+    m_roots.set("tipColour", look.dotColour);
     m_roots.use();
     m_rootPoints.bindStorage(1);
     gl::drawTriangles(0, (m_firstPoint.size() - 1) * 6);

@@ -5,6 +5,7 @@
 #include "core/model/guide_set.h"
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
+#include "render/passes/guide_ribbons.h"
 #include "render/passes/map_texture.h"
 #include "render/view_settings.h"
 
@@ -16,23 +17,15 @@ public:
     /// Uploads the blocks that differ from the last call; all of them when counts of points changed.
     void setGuides(const GuideSet& guides, Uploads& uploads);
     /// Strong at the brush and faint elsewhere, so that the hair stays in sight; everywhere faint without a brush, and
-    /// fainter from depth `fade.x` to `fade.y` and beyond. `coarse`: through fewer points.
-    void draw(const OverlayState& overlay, glm::ivec2 size, glm::vec2 fade, bool coarse);
+    /// fainter from depth `fade.x` to `fade.y` and beyond.
+    void draw(const OverlayState& overlay, glm::ivec2 size, const GuideLook& look);
 
 private:
-    // The points that are drawn, guide by guide, and the ribbons between them.
-    struct Lines {
-        gl::Buffer points;
-        gl::Buffer indices;
-        std::size_t indexCount = 0;
-    };
-    static Lines linesThrough(const std::vector<std::uint32_t>& firstPoint, std::uint32_t pieces);
-
     GuideSet m_guides;
     std::vector<std::size_t> m_blockStart;    // first point of each block, and the end
     std::vector<std::uint32_t> m_firstPoint;  // of each guide, and the end
-    Lines m_all;
-    Lines m_few;
+    gl::Buffer m_indices;
+    std::size_t m_indexCount = 0;
     gl::Buffer m_rootPoints;
     gl::Program m_lines;
     gl::Program m_roots;

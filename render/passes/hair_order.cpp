@@ -30,7 +30,7 @@ bool HairOrder::update(const Strands& strands, const HairDetail& detail, const g
     m_eye = eye;
     m_forward = forward;
     const std::size_t hairs = detail.hairs(strands);
-    const std::size_t pieces = detail.wholeHairs ? 1 : detail.pointsPerHair - 1;
+    const std::size_t pieces = detail.pointsPerHair - 1;
     const std::size_t count = hairs * pieces;
     m_segments.resize(count);
     m_depths.resize(count);

@@ -16,7 +16,6 @@ struct HairDetail {
     std::uint32_t stride = 1;         ///< every stride-th hair is drawn
     std::uint32_t pointsPerHair = 2;  ///< places along each curve, at least 2
     float widthScale = 1.0f;          ///< what is drawn is this much wider than the hair
-    bool wholeHairs = false;          ///< ordered by hair and not by segment: coarser and faster
     bool operator==(const HairDetail&) const = default;
 
     std::uint32_t hairs(const Strands& strands) const {
@@ -24,7 +23,7 @@ struct HairDetail {
     }
 };
 
-/// Drawn hairs, or segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way
+/// Segments (hair * (pointsPerHair - 1) + place along it) from far to near along `forward` (the way
 /// that the eye looks). Depth is compared in 4,096 steps; equal ones stay in order. The same for any number of threads.
 class HairOrder {
 public:

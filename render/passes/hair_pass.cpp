@@ -37,25 +37,24 @@ std::vector<glm::vec4> rootInfo(const Strands& strands, const SurfaceMesh& mesh)
 
 Result<HairPass> HairPass::create() {
     HairPass pass;
-    Result<gl::Program> points = gl::Program::compute("hair_points.comp.glsl");
-    if (!points) return points.error();
-    Result<gl::Program> quick = gl::Program::compute("hair_points.comp.glsl", "#define QUICK\n");
+    Result<gl::Program> corners = gl::Program::compute("hair_points.comp.glsl");
+    if (!corners) return corners.error();
+    Result<gl::Program> all = gl::Program::compute("hair_points.comp.glsl", "#define POINTS\n");
+    if (!all) return all.error();
+    Result<gl::Program> quick = gl::Program::compute("hair_points.comp.glsl", "#define POINTS\n#define QUICK\n");
     if (!quick) return quick.error();
-    Result<gl::Program> smooth = gl::Program::draw("hair.vert.glsl", "hair.frag.glsl", "#define SMOOTH\n");
-    if (!smooth) return smooth.error();
-    Result<gl::Program> plain = gl::Program::draw("hair.vert.glsl", "hair.frag.glsl");
-    if (!plain) return plain.error();
-    pass.m_points = std::move(*points);
+    Result<gl::Program> ribbons = gl::Program::draw("hair.vert.glsl", "hair.frag.glsl");
+    if (!ribbons) return ribbons.error();
+    pass.m_corners = std::move(*corners);
+    pass.m_allPoints = std::move(*all);
     pass.m_quickPoints = std::move(*quick);
-    pass.m_ribbons = std::move(*smooth);
-    pass.m_plainRibbons = std::move(*plain);
+    pass.m_ribbons = std::move(*ribbons);
     pass.m_positions = gl::Buffer("hair positions");
     pass.m_widths = gl::Buffer("hair widths");
     pass.m_colours = gl::Buffer("hair colours");
     pass.m_first = gl::Buffer("hair first vertices");
     pass.m_roots = gl::Buffer("hair roots");
     pass.m_vertices = gl::Buffer("hair vertices");
-    pass.m_orderBuffer = gl::Buffer("hair order");
     pass.m_indices = gl::Buffer("hair indices");
     pass.m_vertexArray.attribute(0, gl::VertexArray::Type::Float, 4, 0);
     pass.m_vertexArray.attribute(1, gl::VertexArray::Type::Half, 4, 16);
@@ -67,7 +66,6 @@ void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceM
     if (strands == m_strands) return;
     m_strands = std::move(strands);
     m_order.clear();
-    m_indexedDetail = {};
     if (m_strands == nullptr || m_strands->count() == 0) {
         m_strands = nullptr;
         return;
@@ -81,42 +79,59 @@ void HairPass::setStrands(std::shared_ptr<const Strands> strands, const SurfaceM
     uploads.bytes += m_positions.size() + m_widths.size() + m_colours.size() + m_first.size() + m_roots.size();
 }
 
-void HairPass::prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward) {
-    if (m_strands == nullptr) return;
+void HairPass::dispatch(gl::Program& program, const HairDetail& detail) {
     const std::size_t hairs = detail.hairs(*m_strands);
-    const std::size_t points = hairs * detail.pointsPerHair;
-    const bool reordered = m_order.update(*m_strands, detail, eye, forward);
-    if (reordered && detail.wholeHairs) m_orderBuffer.upload(m_order.order());
-    m_vertices.reserve(points * 2 * vertexBytes);
     m_positions.bindStorage(0);
     m_widths.bindStorage(1);
     m_colours.bindStorage(2);
     m_first.bindStorage(3);
     m_roots.bindStorage(4);
-    m_orderBuffer.bindStorage(5);
     m_vertices.bindStorage(6);
-    gl::Program& program = detail.wholeHairs ? m_quickPoints : m_points;
     program.set("hairCount", static_cast<unsigned>(hairs));
     program.set("stride", detail.stride);
     program.set("pointsPerHair", detail.pointsPerHair);
     program.set("widthScale", detail.widthScale);
-    program.set("ordered", detail.wholeHairs ? 1 : 0);
     program.use();
-    gl::dispatch((points + 63) / 64);
-    makeIndices(detail, reordered);
+    gl::dispatch((hairs * detail.pointsPerHair + 63) / 64);
+}
+
+void HairPass::prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward) {
+    if (m_strands == nullptr) return;
+    m_vertices.reserve(std::size_t{detail.hairs(*m_strands)} * detail.pointsPerHair * 2 * vertexBytes);
+    dispatch(m_corners, detail);
+    // Either way of drawing may have asked for the order before.
+    if (m_order.update(*m_strands, detail, eye, forward)) m_indexCount = 0;
+    if (m_indexCount == 0) makeIndices(detail);
+    m_segments.clear();
     gl::vertexBarrier();
 }
 
-void HairPass::makeIndices(const HairDetail& detail, bool reordered) {
+void HairPass::preparePoints(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward, bool quick) {
+    if (m_strands == nullptr) return;
+    const std::size_t count = std::size_t{detail.hairs(*m_strands)} * detail.pointsPerHair;
+    m_vertices.reserve(count * sizeof(RasterPoint));
+    dispatch(quick ? m_quickPoints : m_allPoints, detail);
+    if (m_order.update(*m_strands, detail, eye, forward) || m_segments.empty()) {
+        const std::vector<std::uint32_t>& order = m_order.order();
+        const std::uint32_t pieces = detail.pointsPerHair - 1;
+        m_segments.resize(order.size());
+        parallelFor(order.size(), 8192, [&](std::size_t begin, std::size_t end) {
+            // A hair has one point more than segments.
+            for (std::size_t i = begin; i < end; ++i) m_segments[i] = order[i] + order[i] / pieces;
+        });
+    }
+    m_indexCount = 0;
+    m_points.resize(count);
+    m_vertices.read(m_points.data(), count * sizeof(RasterPoint));
+}
+
+void HairPass::makeIndices(const HairDetail& detail) {
     const std::size_t pieces = detail.pointsPerHair - 1;
     const std::size_t segments = detail.hairs(*m_strands) * pieces;
-    // Whole hairs: the compute shader puts them in order, and the indices depend on the numbers only.
-    if (detail.wholeHairs ? detail == m_indexedDetail : !reordered) return;
-    m_indexedDetail = detail.wholeHairs ? detail : HairDetail{};
     m_indexScratch.resize(segments * 6);
     parallelFor(segments, 8192, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const auto segment = detail.wholeHairs ? static_cast<std::uint32_t>(i) : m_order.order()[i];
+            const std::uint32_t segment = m_order.order()[i];
             // A hair has one point more than segments; a point has two vertices.
             const std::uint32_t left = 2 * (segment + segment / static_cast<std::uint32_t>(pieces));
             std::uint32_t* out = m_indexScratch.data() + i * 6;
@@ -132,9 +147,9 @@ void HairPass::makeIndices(const HairDetail& detail, bool reordered) {
     m_indexCount = segments * 6;
 }
 
-void HairPass::draw(bool smooth) {
+void HairPass::draw() {
     if (m_strands == nullptr) return;
-    (smooth ? m_ribbons : m_plainRibbons).use();
+    m_ribbons.use();
     gl::apply({.depth = gl::Depth::Test, .blend = gl::Blend::Over});
     m_vertexArray.bind(m_vertices, vertexBytes, m_indices);
     gl::drawIndexed32(m_indexCount);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hair as camera-facing ribbons, lit along the strand.
+// Hair as camera-facing ribbons, lit along the strand; drawn by the graphics card, or made ready for StrandRaster.
 #pragma once
 
 #include "core/hair/strands.h"
@@ -8,6 +8,7 @@
 #include "render/gl/program.h"
 #include "render/passes/hair_order.h"
 #include "render/passes/map_texture.h"
+#include "render/passes/strand_raster.h"
 
 #include <memory>
 #include <vector>
@@ -24,18 +25,25 @@ public:
 
     /// Projects and lights all points, sorts the segments. Scene block and volumes must be bound.
     void prepare(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward);
-    /// Draws what was prepared; `smooth`: with fringes that are filtered across.
-    void draw(bool smooth);
+    /// Draws what was prepared.
+    void draw();
+
+    /// The same for the processor: points on the picture and segments from far to near. `quick`: with highlights of the
+    /// key light only.
+    void preparePoints(const HairDetail& detail, const glm::vec3& eye, const glm::vec3& forward, bool quick);
+    const std::vector<RasterPoint>& points() const { return m_points; }
+    const std::vector<std::uint32_t>& segments() const { return m_segments; }
 
 private:
-    void makeIndices(const HairDetail& detail, bool reordered);
+    void dispatch(gl::Program& program, const HairDetail& detail);
+    void makeIndices(const HairDetail& detail);
 
     std::shared_ptr<const Strands> m_strands;
     HairOrder m_order;
-    gl::Program m_points;
+    gl::Program m_corners;
+    gl::Program m_allPoints;
     gl::Program m_quickPoints;
     gl::Program m_ribbons;
-    gl::Program m_plainRibbons;
     gl::VertexArray m_vertexArray;
     gl::Buffer m_positions;
     gl::Buffer m_widths;
@@ -43,11 +51,11 @@ private:
     gl::Buffer m_first;
     gl::Buffer m_roots;
     gl::Buffer m_vertices;
-    gl::Buffer m_orderBuffer;
     gl::Buffer m_indices;
     std::vector<std::uint32_t> m_indexScratch;
-    HairDetail m_indexedDetail{};  // of the indices when hairs are ordered whole
     std::size_t m_indexCount = 0;
+    std::vector<RasterPoint> m_points;
+    std::vector<std::uint32_t> m_segments;
 };
 
 }  // namespace whorl

@@ -11,6 +11,9 @@ Result<PicturePass> PicturePass::create() {
     if (!background) return background.error();
     Result<gl::Program> finish = gl::Program::draw("screen.vert.glsl", "finish.frag.glsl");
     if (!finish) return finish.error();
+    Result<gl::Program> layer = gl::Program::draw("screen.vert.glsl", "layer.frag.glsl");
+    if (!layer) return layer.error();
+    pass.m_layerProgram = std::move(*layer);
     pass.m_background = std::move(*background);
     pass.m_finish = std::move(*finish);
     return pass;
@@ -26,11 +29,40 @@ void PicturePass::begin(glm::ivec2 size, int samples) {
         m_target = gl::Framebuffer("picture", &m_colour, &m_depth);
         if (samples > 1) {
             m_resolved = gl::Texture::make2D("resolved picture", gl::Format::Rgba16F, size, gl::Wrap::Clamp);
-            m_resolvedTarget = gl::Framebuffer("resolved picture", &m_resolved, nullptr);
+            m_resolvedDepth = gl::Texture::make2D("resolved depth", gl::Format::Depth32F, size, gl::Wrap::Clamp);
+            m_resolvedTarget = gl::Framebuffer("resolved picture", &m_resolved, &m_resolvedDepth);
         }
     }
+    m_isResolved = samples <= 1;
     m_target.bind();
     m_target.clearDepth();
+}
+
+std::span<const float> PicturePass::resolveDepth() {
+    if (!m_isResolved) m_target.resolveTo(m_resolvedTarget, true);
+    m_isResolved = true;
+    const glm::ivec2 size = m_target.size();
+    m_depths.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    (m_samples > 1 ? m_resolvedDepth : m_depth).read(m_depths.data(), m_depths.size() * sizeof(float));
+    return m_depths;
+}
+
+void PicturePass::drawLayer(const StrandRaster& layer) {
+    const StrandRaster::Region region = layer.region();
+    if (region.width == 0) return;
+    const glm::ivec2 size = m_target.size();
+    if (!m_layer || glm::ivec2(m_layer.size()) != size) {
+        m_layer = gl::Texture::make2D("layer", gl::Format::Rgba16, size, gl::Wrap::Clamp);
+    }
+    m_layer.upload({region.x, region.y}, {region.width, region.height}, layer.texels(), size.x);
+    (m_samples > 1 ? m_resolvedTarget : m_target).bind();
+    m_layer.bind(0);
+    m_layerProgram.set("brightest", StrandRaster::brightest);
+    m_layerProgram.use();
+    gl::scissor({region.x, region.y, region.width, region.height});
+    gl::apply({.depth = gl::Depth::None, .blend = gl::Blend::OverPremultiplied});
+    gl::drawTriangles(0, 3);
+    gl::noScissor();
 }
 
 void PicturePass::drawBackground(const ViewSettings& settings) {
@@ -43,7 +75,7 @@ void PicturePass::drawBackground(const ViewSettings& settings) {
 }
 
 void PicturePass::finish(const ViewSettings& settings, unsigned target, glm::ivec2 size) {
-    if (m_samples > 1) m_target.resolveTo(m_resolvedTarget);
+    if (!m_isResolved) m_target.resolveTo(m_resolvedTarget);
     const bool scaled = size != m_target.size();
     if (scaled) {
         if (!m_smallTarget || m_smallTarget.size() != m_target.size()) {

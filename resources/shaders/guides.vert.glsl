@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guides as smooth ribbons through the drawn points, two vertices a point, or the discs at their roots (ROOTS), six
+// Guides as smooth ribbons through their points, two vertices a point, or the discs at their roots (ROOTS), six
 // vertices a root.
 #include "scene.glsl"
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };  // w: 0 at the root to 1 at the tip
-layout(std430, binding = 1) readonly buffer Drawn { uint drawn[]; };  // indices of the points, guide by guide
+#ifdef ROOTS
+layout(std430, binding = 1) readonly buffer Roots { uint roots[]; };  // indices of their points
+#endif
 layout(location = 0) out vec3 across;  // pixels from the middle (x, y), half width
 layout(location = 1) out float along;
 layout(location = 2) out float opacity;
@@ -31,21 +33,21 @@ void main() {
     uint corner = uint(gl_VertexID) % 6u;
     float end = (corner == 1u || corner >= 4u) ? 1.0 : -1.0;
     float side = (corner == 2u || corner == 3u || corner == 5u) ? 1.0 : -1.0;
-    vec4 clip = scene.clipFromGroom * vec4(points[drawn[uint(gl_VertexID) / 6u]].xyz, 1.0);
+    vec4 clip = scene.clipFromGroom * vec4(points[roots[uint(gl_VertexID) / 6u]].xyz, 1.0);
     vec2 offset = vec2(end, side) * reach;
     along = 0.0;
     across = vec3(offset, thick);
 #else
     uint place = uint(gl_VertexID) / 2u;
     float side = (gl_VertexID & 1) != 0 ? 1.0 : -1.0;
-    vec4 own = points[drawn[place]];
+    vec4 own = points[place];
     vec4 clip = scene.clipFromGroom * vec4(own.xyz, 1.0);
     // Along the guide, from the neighbour before to the one behind; ends have one neighbour.
     uint before = own.w > 0.0 ? place - 1u : place;
-    uint behind = min(place + 1u, uint(drawn.length()) - 1u);
-    if (points[drawn[behind]].w == 0.0) behind = place;
-    vec2 from = before != place ? pixelAt(scene.clipFromGroom * vec4(points[drawn[before]].xyz, 1.0)) : pixelAt(clip);
-    vec2 to = behind != place ? pixelAt(scene.clipFromGroom * vec4(points[drawn[behind]].xyz, 1.0)) : pixelAt(clip);
+    uint behind = min(place + 1u, uint(points.length()) - 1u);
+    if (points[behind].w == 0.0) behind = place;
+    vec2 from = before != place ? pixelAt(scene.clipFromGroom * vec4(points[before].xyz, 1.0)) : pixelAt(clip);
+    vec2 to = behind != place ? pixelAt(scene.clipFromGroom * vec4(points[behind].xyz, 1.0)) : pixelAt(clip);
     vec2 direction = to - from;
     float size = length(direction);
     direction = size > 1e-6 ? direction / size : vec2(1.0, 0.0);

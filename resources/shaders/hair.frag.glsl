@@ -5,10 +5,6 @@ layout(location = 0) in vec4 colour;
 layout(location = 1) in vec2 across;
 layout(location = 0) out vec4 result;
 void main() {
-#ifdef SMOOTH
     float share = clamp((across.y + scene.pixel.z - abs(across.x)) / (2.0 * scene.pixel.z), 0.0, 1.0);
     result = vec4(colour.rgb, colour.a * share);
-#else
-    result = colour;
-#endif
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every hair at `pointsPerHair` even places of its Catmull-Rom curve: projected, and lit by Kajiya-Kay.
-// QUICK: highlights of the key light only. Once a point: the two corners of the ribbon there, ready for the rasteriser.
+// Once a point: the two corners of the ribbon there, ready for the rasteriser. POINTS: the point itself on the picture,
+// for ribbons that the processor draws. QUICK: highlights of the key light only.
 layout(local_size_x = 64) in;
 #include "scene.glsl"
 #include "lighting.glsl"
@@ -9,18 +10,24 @@ layout(std430, binding = 1) readonly buffer Widths { float widths[]; };
 layout(std430, binding = 2) readonly buffer Colours { vec4 colours[]; };
 layout(std430, binding = 3) readonly buffer First { uint firstVertex[]; };
 layout(std430, binding = 4) readonly buffer Roots { vec4 roots[]; };  // normal of the skin, random number
-layout(std430, binding = 5) readonly buffer Order { uint order[]; };  // hair of each place, when ordered
+#ifdef POINTS
+struct Point {
+    vec4 place;  // pixels from the bottom left, depth, half width or less than 0
+    vec4 colour;
+};
+layout(std430, binding = 6) writeonly buffer Points { Point points[]; };
+#else
 struct Vertex {
     vec4 clip;
     uvec2 colour;  // four halves
     vec2 across;   // pixels from the middle, half width
 };
 layout(std430, binding = 6) writeonly buffer Vertices { Vertex vertices[]; };  // left and right of each point
+#endif
 uniform uint hairCount;      // drawn
 uniform uint stride;         // every stride-th hair is drawn
 uniform uint pointsPerHair;
 uniform float widthScale;    // for the hairs left out
-uniform int ordered;
 
 vec3 vertexAt(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]); }
 float sine(float cosine) { return sqrt(max(1.0 - cosine * cosine, 0.0)); }
@@ -49,7 +56,6 @@ void main() {
     uint hair = index / pointsPerHair;
     if (hair >= hairCount) return;
     uint stepIndex = index - hair * pointsPerHair;
-    if (ordered != 0) hair = order[hair];
     hair *= stride;
     uint first = firstVertex[hair];
     uint last = firstVertex[hair + 1u] - 1u;
@@ -112,9 +118,14 @@ void main() {
     lit += hemisphere(outward) * scene.hair.w * albedo * visible;
 
     float halfWidth = max(pixels, scene.pixel.y) * 0.5;
+#ifdef POINTS
+    vec3 onPicture = clip.xyz / max(clip.w, 1e-6) * 0.5 + 0.5;
+    points[index] = Point(vec4(onPicture.xy * scene.viewport.xy, onPicture.z, opacity > 0.0 ? halfWidth : -1.0), vec4(lit, opacity));
+#else
     float reach = halfWidth + scene.pixel.z;
     vec4 offset = vec4(across * (reach * 2.0 * clip.w) * scene.viewport.zw, 0.0, 0.0);
     uvec2 colour = uvec2(packHalf2x16(lit.rg), packHalf2x16(vec2(lit.b, opacity)));
     vertices[2u * index] = Vertex(clip - offset, colour, vec2(-reach, halfWidth));
     vertices[2u * index + 1u] = Vertex(clip + offset, colour, vec2(reach, halfWidth));
+#endif
 }

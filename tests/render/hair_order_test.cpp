@@ -46,12 +46,11 @@ class HairOrderTest : public QObject {
 private Q_SLOTS:
     void everySegmentOnce() {
         const Strands strands = randomStrands(700);
-        for (const HairDetail detail :
-             {HairDetail{1, 16}, HairDetail{3, 5}, HairDetail{1, 2}, HairDetail{7, 9, 1.0f, true}}) {
+        for (const HairDetail detail : {HairDetail{1, 16}, HairDetail{3, 5}, HairDetail{1, 2}, HairDetail{7, 9}}) {
             HairOrder order;
             QVERIFY(order.update(strands, detail, m_eye, m_forward));
             std::vector<std::uint32_t> sorted = order.order();
-            const std::size_t each = detail.wholeHairs ? 1 : detail.pointsPerHair - 1;
+            const std::size_t each = detail.pointsPerHair - 1;
             QCOMPARE(sorted.size(), std::size_t{detail.hairs(strands)} * each);
             std::sort(sorted.begin(), sorted.end());
             for (std::size_t i = 0; i < sorted.size(); ++i) QCOMPARE(std::size_t{sorted[i]}, i);

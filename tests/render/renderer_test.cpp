@@ -244,6 +244,32 @@ private Q_SLOTS:
         QVERIFY(pixelsThatDiffer(plain, draw({}, overlay), 10) > 60);
     }
 
+    // Triangles of the graphics card against ribbons of the processor: their edges are sampled differently, so single
+    // pixels may differ, the picture may not.
+    void cardAndProcessorDrawTheSameHair() {
+        m_offscreen->renderer().setStrands(ballHair(m_groom, 3000));
+        ViewSettings settings;
+        settings.showGuides = true;
+        OverlayState overlay;
+        overlay.showBrush = true;
+        overlay.brushPixel = glm::vec2(side) * 0.5f;
+        overlay.brushRadius = side * 0.2f;
+        for (const int samples : {1, 4}) {
+            settings.samples = samples;
+            m_offscreen->renderer().setHairByProcessor(false);
+            const Picture card = draw(settings, overlay);
+            m_offscreen->renderer().setHairByProcessor(true);
+            const Picture processor = draw(settings, overlay);
+            QVERIFY(std::abs(meanLight(card) - meanLight(processor)) < 1.0);
+            const int different = pixelsThatDiffer(card, processor, 40);
+            QVERIFY2(different < side * side / 50, qPrintable(QString::number(different)));
+            // Without hair many more differ.
+            ViewSettings bald = settings;
+            bald.showHair = bald.showGuides = false;
+            QVERIFY(pixelsThatDiffer(draw(bald), processor, 40) > 5 * different + 500);
+        }
+    }
+
     void interactiveStaysClose() {
         m_offscreen->renderer().setStrands(ballHair(m_groom, 6000));
         const Picture still = draw({});
