@@ -163,6 +163,10 @@ void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
     state.uploadMilliseconds = milliseconds(start);
 }
 
+void Renderer::setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours) {
+    m_state->mesh.setTriangleColours(std::move(colours));
+}
+
 void Renderer::draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, unsigned target,
                     glm::ivec2 size) {
     State& state = *m_state;

@@ -11,6 +11,7 @@
 #include "render/view_settings.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -30,6 +31,9 @@ public:
     /// `strands` may be null.
     void setGroom(const Groom& groom, std::shared_ptr<const Surface> surface);
     void setStrands(std::shared_ptr<const Strands> strands);
+
+    /// Colours of the mesh's triangles (linear, opacity last) that ViewSettings::heat shows; may be null.
+    void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);
 
     /// Draws into framebuffer object `target` (0: the window) of `size` pixels, multisampled in an own framebuffer and
     /// resolved there.

@@ -20,6 +20,8 @@ struct ViewSettings {
     bool showGuides = false;
     std::string overlayMap{};  ///< map shown in colour over the mesh, or empty
     float overlayOpacity = 0.65f;
+    bool overlayGroups = false;  ///< the map holds numbers of groups: each in its own colour (groupColour)
+    bool heat = false;           ///< colours of Renderer::setTriangleColours over the mesh
 
     HairShading shading = HairShading::KajiyaKay;
     ShadowMode shadows = ShadowMode::Voxel;
@@ -49,6 +51,10 @@ struct OverlayState {
     float brushRadius = 0.0f;
     float brushStrength = 0.0f;
     std::string text{};  ///< bottom left: counts, milliseconds
+    float scale = 1.0f;  ///< pixels of the viewport for one of an ordinary screen: size of text and lines
 };
+
+/// Linear colour of a group's number on the model and beside its name: neighbours in number differ clearly.
+glm::vec3 groupColour(int group);
 
 }  // namespace whorl

@@ -16,5 +16,6 @@ std::unique_ptr<Brush> makePuff();
 std::unique_ptr<Brush> makePlace();
 std::unique_ptr<Brush> makeDelete();
 std::unique_ptr<Brush> makePaint();
+std::unique_ptr<Brush> makeGroup();
 
 }  // namespace whorl

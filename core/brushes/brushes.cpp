@@ -64,6 +64,15 @@ std::span<const BrushInfo> brushes() {
                   .paintsMap = true,
                   .spacing = 0.15f,
                   .make = makePaint},
+        BrushInfo{.id = "group",
+                  .label = "Paint group",
+                  .shortcut = "J",
+                  .tip = "Paints where the chosen group grows. With Ctrl it paints the first group.",
+                  .undoText = "Paint group",
+                  .paintsMap = true,
+                  .paintsGroups = true,
+                  .spacing = 0.15f,
+                  .make = makeGroup},
     };
     return list;
 }

@@ -5,8 +5,12 @@
 namespace whorl {
 namespace {
 
-/// Paints a data map in a ball around the skin under the cursor.
+/// Paints a data map in a ball around the skin under the cursor. Hard: numbers, without falloff and strength.
 class PaintBrush : public Brush {
+public:
+    explicit PaintBrush(bool hard) : m_hard(hard) {}
+
+private:
     Result<void> begin(const Groom& groom, const BrushSettings& settings) override {
         if (settings.map.empty()) return Error{"Choose a map to paint first."};
         const Map* map = groom.maps.find(settings.map);
@@ -22,18 +26,27 @@ class PaintBrush : public Brush {
         const std::string& name = step.settings.map;
         std::unique_ptr<PaintCanvas>& canvas = step.scratch->canvas;
         if (!canvas) canvas = std::make_unique<PaintCanvas>(step.surface, *step.groom.maps.find(name));
-        PaintDab dab{.centre = step.hit->position, .strength = step.strength, .frontOnly = step.settings.frontOnly};
+        PaintDab dab{.centre = step.hit->position,
+                     .strength = step.strength,
+                     .frontOnly = step.settings.frontOnly,
+                     .hard = m_hard};
         dab.radius = step.radiusPixels * step.view.metresPerPixel(dab.centre);
         // Without perspective rays are parallel: an eye far along this one faces the same triangles.
         dab.eye = step.view.rayOrigin(step.pixel);
         step.changed = canvas->paint(step.groom.maps, name, dab, step.settings.invert ? 0.0f : step.settings.value);
     }
+
+    bool m_hard;
 };
 
 }  // namespace
 
 std::unique_ptr<Brush> makePaint() {
-    return std::make_unique<PaintBrush>();
+    return std::make_unique<PaintBrush>(false);
+}
+
+std::unique_ptr<Brush> makeGroup() {
+    return std::make_unique<PaintBrush>(true);
 }
 
 }  // namespace whorl

@@ -70,7 +70,8 @@ void PaintCanvas::raise(Mask& mask, const PaintTile& tile, const PaintDab& dab) 
         }
         for (std::uint32_t i = triangle.first; i < triangle.last; ++i) {
             const PaintTile::Sample& sample = tile.samples[i];
-            const float weight = strength * brushFalloff(glm::length(sample.position - dab.centre) / dab.radius);
+            const float falloff = brushFalloff(glm::length(sample.position - dab.centre) / dab.radius);
+            const float weight = !dab.hard ? strength * falloff : falloff > 0.0f ? 1.0f : 0.0f;
             if (weight > mask.strength[sample.texel]) {
                 mask.strength[sample.texel] = weight;
                 mask.risen.push_back(sample.texel);

@@ -20,6 +20,7 @@ struct PaintDab {
     float strength = 1.0f;  ///< 0 to 1
     glm::vec3 eye{0.0f};
     bool frontOnly = true;  ///< leaves alone what faces away from the eye
+    bool hard = false;      ///< the value itself everywhere in the ball: for maps of numbers such as groups
 };
 
 /// The texels of one map on one mesh, tile by tile as a stroke reaches them. Texels are found through the triangles

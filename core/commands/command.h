@@ -62,5 +62,7 @@ std::uint32_t addGuide(Groom& groom, const Surface& surface, const SurfacePoint&
 /// A data map of the groom that drives density and can be painted; made (filled with `fill`) when there is none yet.
 /// Gives its name.
 std::string ensureDensityMap(Groom& groom, std::size_t group, int size, float fill);
+/// Name of the group map; made, `size` texels a side and all of the first group, when there is none to paint.
+std::string ensureGroupMap(Groom& groom, int size);
 
 }  // namespace whorl

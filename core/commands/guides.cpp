@@ -103,4 +103,16 @@ std::string ensureDensityMap(Groom& groom, std::size_t group, int size, float fi
     return name;
 }
 
+std::string ensureGroupMap(Groom& groom, int size) {
+    const std::string& current = groom.counts->groupMap.name;
+    const Map* map = groom.maps.find(current);
+    if (!current.empty() && map != nullptr && map->channels() == 1 && !map->empty()) return current;
+    std::string name = "groups";
+    for (int i = 2; groom.maps.find(name) != nullptr; ++i) name = "groups_" + std::to_string(i);
+    const int side = std::clamp(size, 1, Map::maxSize);
+    groom.maps.set(name, Map(side, side, 1, TexelFormat::U8, 0.0f));
+    groom.counts.edit().groupMap.name = name;
+    return name;
+}
+
 }  // namespace whorl

@@ -109,7 +109,11 @@ void addView(std::vector<ActionInfo>& table) {
     table.push_back({"view.hair", tr("&Hair"), "Shift+H", tr("Shows or hides the hair."), menu, A::Check, false, ""});
     table.push_back(
         {"view.guides", tr("&Guides"), "Shift+G", tr("Shows or hides the guides."), menu, A::Check, false, ""});
-    table.push_back({"view.mesh", tr("&Model"), "Shift+M", tr("Shows or hides the model."), menu, A::Check, line, ""});
+    table.push_back({"view.mesh", tr("&Model"), "Shift+M", tr("Shows or hides the model."), menu, A::Check, false, ""});
+    table.push_back({"view.heat", tr("&Asked against Placed"), "Shift+A",
+                     tr("Colours the model by how many hairs grow where the density asks for them: blue for fewer, "
+                        "red for more."),
+                     menu, A::Check, line, ""});
     table.push_back({"view.panels", tr("Hide &Panels"), "Tab", tr("Gives the whole window to the view."), menu,
                      A::Check, false, "", true});
     table.push_back({"view.fullscreen", tr("Full &Screen"), "F11", tr("Gives the whole screen to Whorl."), menu,

@@ -34,9 +34,9 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
     actions.on("groom.paint_density", this, [this] { paintDensity(); });
     actions.on("groom.new_seed", this, [this] { newSeed(); });
     for (const BrushInfo& brush : brushes()) {
-        if (brush.paintsMap) {
-            actions.on("tool." + qtext(brush.id), this, [this] { choosePaintMap(m_document, m_state, true); });
-        }
+        if (!brush.paintsMap) continue;
+        actions.on("tool." + qtext(brush.id), this,
+                   [this, &brush] { choosePaintMap(m_document, m_state, brush, true); });
     }
     connect(&document, &Document::changed, this, &GroomActions::refresh);
     connect(&document.history(), &QUndoStack::indexChanged, this, &GroomActions::refresh);
@@ -46,7 +46,7 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
 void GroomActions::refresh() {
     const bool open = m_document.hasGroom();
     // Another document, or an undo, may have taken the painted map away.
-    if (m_state.brush() && m_state.brush()->paintsMap) choosePaintMap(m_document, m_state, false);
+    if (m_state.brush()) choosePaintMap(m_document, m_state, *m_state.brush(), false);
     for (const ActionInfo& row : m_actions.table()) {
         if (row.kind == ActionInfo::Held) continue;
         const bool needsGroom = row.id.startsWith("groom.") || row.id.startsWith("file.save") ||
@@ -128,6 +128,7 @@ ViewActions::ViewActions(EditorState& state, Actions& actions, Viewport* viewpor
     toggle("view.hair", &ViewOptions::showHair);
     toggle("view.guides", &ViewOptions::showGuides);
     toggle("view.mesh", &ViewOptions::showMesh);
+    toggle("view.heat", &ViewOptions::heat);
     actions.onToggle("view.fullscreen", this, [&window](bool on) {
         window.setWindowState(on ? window.windowState() | Qt::WindowFullScreen
                                  : window.windowState() & ~Qt::WindowFullScreen);
@@ -150,6 +151,7 @@ void ViewActions::refresh() {
     m_actions.get("view.hair").setChecked(m_state.viewOptions().showHair);
     m_actions.get("view.guides").setChecked(m_state.viewOptions().showGuides);
     m_actions.get("view.mesh").setChecked(m_state.viewOptions().showMesh);
+    m_actions.get("view.heat").setChecked(m_state.viewOptions().heat);
 }
 
 }  // namespace whorl

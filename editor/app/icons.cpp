@@ -57,6 +57,11 @@ const QHash<QString, Draw>& drawings() {
                  l.cubicTo(8, y - 5, 16, y + 5, 21, y);
              }
          }},
+        {"group",
+         [](QPainterPath& l, QPainterPath& f) {
+             l.addEllipse(QPointF(9, 9.5), 6, 6);
+             f.addEllipse(QPointF(15, 15), 6.2, 6.2);
+         }},
         {"paint",
          [](QPainterPath& l, QPainterPath& f) {
              polyline(l, {QPointF(20.5, 3.5), QPointF(11, 13)});

@@ -150,8 +150,8 @@ void MainWindow::makePanels() {
         addDockWidget(Qt::RightDockWidgetArea, widget);
         return widget;
     };
-    QDockWidget* tool = dock("dock_tool", tr("Tool"), new ToolPanel(context));
-    QDockWidget* groom = dock("dock_groom", tr("Groom"), new GroomPanel(context));
+    QDockWidget* tool = dock("dock_tool", tr("Tool"), scrolled(new ToolPanel(context)));
+    QDockWidget* groom = dock("dock_groom", tr("Groom"), scrolled(new GroomPanel(context)));
     QDockWidget* hair = dock("dock_hair", tr("Hair"), new HairPanel(context));
     QDockWidget* maps = dock("dock_maps", tr("Maps"), new MapsPanel(context));
     QDockWidget* parts = dock("dock_parts", tr("Parts"), new PartsPanel(context));

@@ -26,8 +26,9 @@ ViewSettings ViewOptions::settings() const {
     ViewSettings view;
     view.showMesh = showMesh;
     view.showTexture = showTexture;
-    view.showHair = showHair;
-    view.showGuides = showGuides;
+    view.heat = heat;
+    view.showHair = showHair && !heat;
+    view.showGuides = showGuides && !heat;
     view.overlayOpacity = overlayOpacity;
     view.shading = HairShading::KajiyaKay;
     view.shadows = shadows.index == 0 ? ShadowMode::None : ShadowMode::Voxel;

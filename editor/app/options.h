@@ -87,6 +87,7 @@ struct ViewOptions {
     bool showGuides = true;
     bool showMesh = true;
     bool showTexture = true;
+    bool heat = false;
     float overlayOpacity = 0.65f;
     Choice shading{};
     float diffuse = 0.75f;
@@ -113,6 +114,11 @@ struct ViewOptions {
         visit(ParamInfo{.id = "show_mesh", .label = "Model", .tip = "Shows the model."}, self.showMesh);
         visit(ParamInfo{.id = "show_texture", .label = "Texture", .tip = "Shows the model's own texture."},
               self.showTexture);
+        visit(ParamInfo{.id = "heat",
+                        .label = "Asked against placed",
+                        .tip = "Instead of the hair: white where as many hairs grow as the density asks for, blue "
+                               "where there are fewer, red where there are more."},
+              self.heat);
         visit(ParamInfo{.id = "overlay_opacity",
                         .label = "Map over model",
                         .unit = "%",

@@ -40,8 +40,19 @@ std::string paintDensityMap(Document& document, EditorState& state) {
     return map;
 }
 
-void choosePaintMap(Document& document, EditorState& state, bool make) {
-    if (!document.hasGroom()) return;
+std::string paintGroupMap(Document& document) {
+    Groom after = document.committed();
+    const std::string map = ensureGroupMap(after, mapSize);
+    if (!after.sameAs(document.committed())) document.edit(std::move(after), QObject::tr("New group map"));
+    return map;
+}
+
+void choosePaintMap(Document& document, EditorState& state, const BrushInfo& brush, bool make) {
+    if (!document.hasGroom() || !brush.paintsMap) return;
+    if (brush.paintsGroups) {
+        if (make) paintGroupMap(document);
+        return;
+    }
     const Groom& groom = document.groom();
     if (paintable(groom, state.brushOptions().map.name)) return;
     const std::string& density = (*groom.groups)[activeGroup(groom, state)].params.general.density.map;

@@ -62,6 +62,7 @@ QTabBar::tab { padding: 6px 11px; border: none; color: palette(placeholder-text)
 QTabBar::tab:selected { color: palette(text); border-bottom: 2px solid palette(highlight); }
 QTabBar::tab:hover { color: palette(text); }
 QStatusBar::item { border: none; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QScrollArea { border: none; }
 QListView::item, QTreeView::item { padding: 3px; }
 QMenu { padding: 4px; }

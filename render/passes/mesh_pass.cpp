@@ -24,7 +24,21 @@ Result<MeshPass> MeshPass::create(int maxTextureSize) {
     pass.m_white = gl::Texture::make2D("white", gl::Format::Rgba8, glm::ivec2(1), gl::Wrap::Repeat);
     const std::uint32_t white = 0xffffffffu;
     pass.m_white.upload(glm::ivec2(0), glm::ivec2(1), &white);
+    std::vector<std::uint8_t> palette;
+    for (int group = 0; group < 256; ++group) {
+        const glm::vec3 colour = groupColour(group);
+        for (int i = 0; i < 3; ++i) palette.push_back(static_cast<std::uint8_t>(colour[i] * 255.0f + 0.5f));
+    }
+    pass.m_groupColours = gl::Texture::make2D("group colours", gl::Format::Rgb8, glm::ivec2(256, 1), gl::Wrap::Clamp);
+    pass.m_groupColours.upload(glm::ivec2(0), glm::ivec2(256, 1), palette.data());
+    pass.m_colours = gl::Buffer("triangle colours");
     return pass;
+}
+
+void MeshPass::setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours) {
+    if (colours == m_triangleColours) return;
+    m_triangleColours = std::move(colours);
+    if (m_triangleColours) m_colours.upload(*m_triangleColours);
 }
 
 void MeshPass::setGroom(const Groom& groom, Uploads& uploads) {
@@ -70,10 +84,16 @@ void MeshPass::draw(const ViewSettings& settings, bool litByVertex, Uploads& upl
         program.set("overlayFlipped", overlay->map().flipV ? 1 : 0);
         program.set("overlayColours", overlay->map().channels() == 3 ? 1 : 0);
         program.set("overlayRange", 1.0f);
+        program.set("overlayGroups", settings.overlayGroups ? 1 : 0);
+        m_groupColours.bind(5);
     } else {
         m_white.bind(4);
     }
     bindBuffers();
+    // Colours of another mesh, which are about to be replaced, are not shown.
+    const bool coloured = settings.heat && m_triangleColours && m_triangleColours->size() == m_triangles;
+    program.set("coloured", coloured ? 1 : 0);
+    if (coloured) m_colours.bindStorage(4);
     gl::apply({.depth = gl::Depth::TestWrite});
     for (std::size_t i = 0; i < m_mesh->parts.size(); ++i) {
         const MeshPart& part = m_mesh->parts[i];

@@ -8,7 +8,10 @@
 #include "render/passes/map_texture.h"
 #include "render/view_settings.h"
 
+#include <glm/vec4.hpp>
+
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,8 @@ public:
 
     /// Uploads what differs from the last call.
     void setGroom(const Groom& groom, Uploads& uploads);
+    /// One a triangle, opacity last, or none; shown while ViewSettings::heat is on. Uploads when the pointer differs.
+    void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);
     /// Scene block, volumes and shadow map must be bound.
     /// `litByVertex`: cheaper, for meshes with fewer corners than they cover pixels.
     void draw(const ViewSettings& settings, bool litByVertex, Uploads& uploads);
@@ -38,7 +43,10 @@ private:
     gl::Buffer m_normals;
     gl::Buffer m_corners;
     gl::Buffer m_uvs;
+    gl::Buffer m_colours;
+    gl::Texture m_groupColours;
     gl::Texture m_white;
+    std::shared_ptr<const std::vector<glm::vec4>> m_triangleColours;
     Cow<SurfaceMesh> m_mesh;
     std::vector<PartSettings> m_parts;
     MapSet m_maps;

@@ -58,25 +58,27 @@ void OverlayPass::draw(const OverlayState& overlay, glm::ivec2 size) {
     ImGui::SetCurrentContext(m_context);
     ImGui::GetIO().DisplaySize = ImVec2(static_cast<float>(size.x), static_cast<float>(size.y));
     ImGui::NewFrame();
+    const float scale = std::clamp(overlay.scale, 0.5f, 8.0f);
     ImDrawList* list = ImGui::GetForegroundDrawList();
     if (overlay.showBrush && overlay.brushRadius > 0.0f) {
         const ImVec2 centre(overlay.brushPixel.x, overlay.brushPixel.y);
         const int corners = std::clamp(static_cast<int>(overlay.brushRadius), 32, 256);
         // A dark line beside the bright one, so that the circle shows on skin, hair and background.
-        list->AddCircle(centre, overlay.brushRadius + 1.0f, IM_COL32(0, 0, 0, 130), corners, 1.5f);
-        list->AddCircle(centre, overlay.brushRadius, IM_COL32(255, 255, 255, 225), corners, 1.5f);
+        list->AddCircle(centre, overlay.brushRadius + scale, IM_COL32(0, 0, 0, 130), corners, 1.5f * scale);
+        list->AddCircle(centre, overlay.brushRadius, IM_COL32(255, 255, 255, 225), corners, 1.5f * scale);
         const float strength = std::clamp(overlay.brushStrength, 0.0f, 1.0f);
         if (strength > 0.0f) {
             list->AddCircle(centre, std::max(overlay.brushRadius * strength, 1.0f), IM_COL32(255, 190, 90, 150),
-                            corners, 1.0f);
+                            corners, scale);
         }
-        list->AddCircleFilled(centre, 1.75f, IM_COL32(255, 255, 255, 225));
+        list->AddCircleFilled(centre, 1.75f * scale, IM_COL32(255, 255, 255, 225));
     }
     if (!overlay.text.empty()) {
-        const ImVec2 extent = ImGui::CalcTextSize(overlay.text.c_str());
-        const ImVec2 at(12.0f, static_cast<float>(size.y) - extent.y - 10.0f);
-        list->AddText(ImVec2(at.x + 1.0f, at.y + 1.0f), IM_COL32(0, 0, 0, 200), overlay.text.c_str());
-        list->AddText(at, IM_COL32(230, 232, 236, 235), overlay.text.c_str());
+        const float height = ImGui::GetFontSize() * scale;
+        const ImVec2 at(12.0f * scale, static_cast<float>(size.y) - height - 10.0f * scale);
+        const ImVec2 shadow(at.x + scale, at.y + scale);
+        list->AddText(ImGui::GetFont(), height, shadow, IM_COL32(0, 0, 0, 200), overlay.text.c_str());
+        list->AddText(ImGui::GetFont(), height, at, IM_COL32(230, 232, 236, 235), overlay.text.c_str());
     }
     ImGui::Render();
     const ImDrawData* data = ImGui::GetDrawData();

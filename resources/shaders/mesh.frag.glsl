@@ -9,15 +9,18 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 #endif
 layout(location = 2) in vec2 uv;
+layout(location = 3) flat in vec4 triangleColour;  // opacity last
 layout(location = 0) out vec4 colour;
 layout(binding = 3) uniform sampler2D baseTexture;
 layout(binding = 4) uniform sampler2D overlayMap;
+layout(binding = 5) uniform sampler2D groupColours;  // 256 x 1
 uniform vec3 baseColour;
 uniform int textured;       // 0: no texture, 1: linear texels, 2: texels in sRGB
 uniform int textureFlipped;
 uniform float overlayOpacity;  // 0: no map
 uniform int overlayFlipped;
 uniform int overlayColours;    // the map holds colours
+uniform int overlayGroups;     // the map holds numbers of groups
 uniform float overlayRange;
 
 vec3 linearFromSrgb(vec3 c) {
@@ -43,10 +46,20 @@ void main() {
         base *= textured == 2 ? linearFromSrgb(texel) : texel;
     }
     if (overlayOpacity > 0.0) {
-        vec3 texel = texture(overlayMap, place(uv, overlayFlipped)).rgb;
-        vec3 shown = overlayColours != 0 ? texel : heat(texel.r / overlayRange);
+        vec3 shown;
+        if (overlayGroups != 0) {
+            // The nearest texel: between two numbers there is no third.
+            ivec2 size = textureSize(overlayMap, 0);
+            ivec2 texel = ivec2(fract(place(uv, overlayFlipped)) * vec2(size));
+            float number = texelFetch(overlayMap, min(texel, size - 1), 0).r;
+            shown = texelFetch(groupColours, ivec2(clamp(number * 255.0 + 0.5, 0.0, 255.0), 0), 0).rgb;
+        } else {
+            vec3 texel = texture(overlayMap, place(uv, overlayFlipped)).rgb;
+            shown = overlayColours != 0 ? texel : heat(texel.r / overlayRange);
+        }
         base = mix(base, shown, overlayOpacity);
     }
+    base = mix(base, triangleColour.rgb, triangleColour.a);
 #ifdef VERTEX_LIT
     colour = vec4(base * light + gloss, 1.0);
 #else

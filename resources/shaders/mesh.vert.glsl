@@ -16,6 +16,9 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 #endif
 layout(location = 2) out vec2 uv;
+layout(location = 3) flat out vec4 triangleColour;
+layout(std430, binding = 4) readonly buffer Colours { vec4 triangleColours[]; };
+uniform int coloured;  // triangles have colours
 
 vec3 at(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]); }
 
@@ -36,6 +39,7 @@ void main() {
     skinLight(position, normal, normalize(scene.eye.xyz - position), light, gloss);
 #endif
     uv = uvs[gl_VertexID];
+    triangleColour = coloured != 0 ? triangleColours[gl_VertexID / 3] : vec4(0.0);
     gl_Position = scene.clipFromGroom * vec4(position, 1.0);
 #endif
 }

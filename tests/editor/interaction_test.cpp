@@ -29,6 +29,7 @@
 #include <QTest>
 #include <QTimer>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
 using namespace whorl;
@@ -229,6 +230,73 @@ private Q_SLOTS:
         QCOMPARE(m_window->area().messages().sentence(), said);
         QVERIFY(document().committed().maps.find(painted()));
         QCOMPARE(document().history().count(), 2);
+    }
+
+    void groupsArePaintedOnTheModel() {
+        find<QToolButton>("group_add")->click();
+        QCOMPARE(document().committed().groups->size(), std::size_t{2});
+        QCOMPARE(m_window->state().group(), 1);
+        QVERIFY(document().committed().counts->groupMap.name.empty());
+        const int steps = document().history().count();
+        m_window->actions().get("tool.group").trigger();
+        // Picking the tool makes the map, and shows it.
+        const std::string map = document().committed().counts->groupMap.name;
+        QVERIFY(document().committed().maps.find(map));
+        QCOMPARE(document().history().count(), steps + 1);
+        QVERIFY(view().viewSettings().overlayGroups);
+        QCOMPARE(view().viewSettings().overlayMap, map);
+        const auto count = [&](float number) {
+            const Map& groups = *document().committed().maps.find(map);
+            int found = 0;
+            for (int y = 0; y < groups.height(); ++y) {
+                for (int x = 0; x < groups.width(); ++x) {
+                    const float stored = std::round(groups.texel(x, y) * 255.0f);
+                    if (stored != 0.0f && stored != 1.0f) return -1;
+                    found += stored == number;
+                }
+            }
+            return found;
+        };
+        const std::uint64_t before = testing::groomDigest(document().committed());
+        testing::drag(view(), {centre() - QPoint(30, 0), centre() + QPoint(30, 0)});
+        QCOMPARE(document().history().count(), steps + 2);
+        const int painted = count(1.0f);
+        QVERIFY2(painted > 100, qPrintable(QString::number(painted)));
+        // Guides that are placed now belong to the painted group there, and hair grows from them.
+        QVERIFY(m_window->groomActions().placeGuides(300, false));
+        QVERIFY(testing::settle(*m_window));
+        const auto strands = view().strands();
+        const auto inGroup = std::count(strands->groups.begin(), strands->groups.end(), std::uint8_t{1});
+        QVERIFY(inGroup > 0 && static_cast<std::size_t>(inGroup) < strands->groups.size());
+        document().undo();
+        testing::drag(view(), {centre(), centre() + QPoint(5, 0)}, Qt::ControlModifier);
+        QVERIFY(count(1.0f) < painted && count(1.0f) >= 0);
+        document().undo();
+        document().undo();
+        QCOMPARE(testing::groomDigest(document().committed()), before);
+    }
+
+    void askedAgainstPlacedIsShown() {
+        const auto picture = [&] {
+            QTest::mouseMove(&view(), QPoint(3, 3));
+            if (!testing::settle(*m_window)) return QImage();
+            return view().grabFramebuffer();
+        };
+        m_window->actions().get("tool.look").trigger();
+        const QImage hairy = picture();
+        QAction& heat = m_window->actions().get("view.heat");
+        heat.trigger();
+        QVERIFY(heat.isChecked());
+        QVERIFY(m_window->state().viewOptions().heat);
+        const QImage shown = picture();
+        QVERIFY(!view().viewSettings().showHair);
+        // The sampler places what is asked for: the model is light all over.
+        const QColor middle = shown.pixelColor(shown.rect().center());
+        QVERIFY2(middle.lightness() > 120 && std::abs(middle.red() - middle.blue()) < 90, qPrintable(middle.name()));
+        QVERIFY(hairy != shown);
+        heat.trigger();
+        QVERIFY(!m_window->state().viewOptions().heat);
+        QCOMPARE(document().history().count(), 0);
     }
 
     void brushKeys() {

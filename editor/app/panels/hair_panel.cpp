@@ -2,6 +2,7 @@
 #include "core/commands/group_edits.h"
 #include "editor/app/icons.h"
 #include "editor/app/panels/groom_source.h"
+#include "editor/app/panels/group_swatch.h"
 #include "editor/app/panels/panels.h"
 #include "editor/app/widgets/message_bar.h"
 #include "editor/app/widgets/param_form.h"
@@ -100,6 +101,7 @@ void HairPanel::refresh() {
         for (const QString& name : names) {
             auto* item = new QListWidgetItem(name, m_list);
             item->setFlags(item->flags() | Qt::ItemIsEditable);
+            item->setIcon(groupSwatch(m_list->count() - 1));
         }
     }
     m_remove->setEnabled(names.size() > 1);

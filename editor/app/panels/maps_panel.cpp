@@ -3,6 +3,7 @@
 #include "core/io/image.h"
 #include "editor/app/document.h"
 #include "editor/app/editor_state.h"
+#include "editor/app/panels/group_swatch.h"
 #include "editor/app/panels/panels.h"
 #include "editor/app/progress_task.h"
 #include "editor/app/widgets/message_bar.h"
@@ -19,7 +20,8 @@ namespace {
 
 constexpr int thumbnail = 56;
 
-QIcon pictureOf(const Map& map) {
+// `groups`: the map holds numbers of groups, which would all look black.
+QIcon pictureOf(const Map& map, bool groups) {
     QImage image(thumbnail, thumbnail, QImage::Format_RGB32);
     for (int y = 0; y < thumbnail; ++y) {
         for (int x = 0; x < thumbnail; ++x) {
@@ -28,6 +30,10 @@ QIcon pictureOf(const Map& map) {
             const auto byte = [&](int channel) {
                 return static_cast<int>(std::clamp(map.texel(column, row, channel), 0.0f, 1.0f) * 255.0f + 0.5f);
             };
+            if (groups) {
+                image.setPixel(x, y, groupRgb(static_cast<int>(std::lround(map.texel(column, row) * 255.0f))));
+                continue;
+            }
             const bool colour = map.channels() == 3;
             image.setPixel(x, y, qRgb(byte(0), byte(colour ? 1 : 0), byte(colour ? 2 : 0)));
         }
@@ -123,13 +129,15 @@ void MapsPanel::refresh() {
         const QString name = QString::fromStdString(entry.name);
         const bool same = !fresh && i < m_seen.entries().size() && m_seen.entries()[i].map.sameAs(entry.map);
         // Thumbnails wait for the end of a stroke.
-        if (!same && (fresh || !m_context.document.previewing())) item->setIcon(pictureOf(*entry.map));
+        if (!same && (fresh || !m_context.document.previewing()))
+            item->setIcon(pictureOf(*entry.map, entry.name == groom.counts->groupMap.name));
         item->setText(name);
         item->setData(Qt::UserRole, name);
         item->setToolTip(factsOf(*entry.map));
         if (name == chosen) m_list->setCurrentItem(item);
     }
     if (!m_context.document.previewing()) m_seen = groom.maps;
+    if (!m_list->currentItem()) m_list->setCurrentRow(0);
     m_filling = false;
 }
 

@@ -12,6 +12,7 @@ namespace whorl {
 namespace {
 
 QStringList rowsOf(const BrushInfo& brush) {
+    if (brush.paintsGroups) return {"radius", "mirror", "front_only", "pressure_size"};
     QStringList rows{"radius", "strength"};
     if (brush.paintsMap)
         rows << "map"
@@ -65,11 +66,18 @@ ToolPanel::ToolPanel(PanelContext context, QWidget* parent)
 
 void ToolPanel::refresh() {
     const BrushInfo* brush = m_context.state.brush();
-    m_title->setText(brush ? qtext(brush->label) : tr("Look around"));
+    QString title = brush ? qtext(brush->label) : tr("Look around");
+    const std::vector<Group>& groups = *m_context.document.groom().groups;
+    if (brush && brush->paintsGroups && !groups.empty()) {
+        const auto group = static_cast<std::size_t>(std::max(m_context.state.group(), 0));
+        title += ": " + QString::fromStdString(groups[std::min(group, groups.size() - 1)].name);
+    }
+    m_title->setText(title);
     m_tip->setText(brush ? qtext(brush->tip) : tr("Drag to turn the view. Pick a tool on the left to groom."));
     m_form->setVisible(brush != nullptr);
     if (brush) m_form->showOnly(rowsOf(*brush));
-    m_makeMap->setVisible(brush && brush->paintsMap && mapNames(m_context.document.groom(), false).isEmpty());
+    m_makeMap->setVisible(brush && brush->paintsMap && !brush->paintsGroups &&
+                          mapNames(m_context.document.groom(), false).isEmpty());
 }
 
 }  // namespace whorl

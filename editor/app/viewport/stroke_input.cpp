@@ -4,6 +4,8 @@
 #include "editor/app/paint_map.h"
 #include "editor/app/widgets/param_source.h"
 
+#include <algorithm>
+
 namespace whorl {
 
 const BrushInfo* StrokeInput::brushFor(const EditorState& state, Qt::KeyboardModifiers modifiers) {
@@ -19,8 +21,14 @@ Result<void> StrokeInput::begin(const StrokeView& view, const StrokePoint& point
     m_brush = brushFor(m_state, modifiers);
     const std::shared_ptr<const Surface> surface = m_document.surface();
     if (!m_brush || !surface) return {};
-    if (m_brush->paintsMap) choosePaintMap(m_document, m_state, true);
-    const BrushSettings settings = m_state.brushOptions().settings(modifiers.testFlag(Qt::ControlModifier));
+    choosePaintMap(m_document, m_state, *m_brush, true);
+    BrushSettings settings = m_state.brushOptions().settings(modifiers.testFlag(Qt::ControlModifier));
+    if (m_brush->paintsGroups) {
+        settings.map = m_document.committed().counts->groupMap.name;
+        settings.strength = 1.0f;
+        settings.pressureStrength = false;
+        settings.value = static_cast<float>(std::max(m_state.group(), 0)) / 255.0f;
+    }
     Result<Stroke> stroke = Stroke::begin(*m_brush, m_document.committed(), surface, view, settings);
     if (!stroke) return stroke.error();
     m_stroke.emplace(std::move(*stroke));

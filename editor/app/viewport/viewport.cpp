@@ -48,11 +48,14 @@ Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
     connect(&m_state, &EditorState::changed, this, [this] {
         setCursor(m_state.brush() ? Qt::CrossCursor : Qt::ArrowCursor);
         Q_EMIT hintChanged(hint());
+        requestHeat();
         update();
     });
+    connect(&m_heat, &HeatJob::delivered, this, qOverload<>(&QWidget::update));
     connect(&m_hair, &HairJob::delivered, this, [this](std::shared_ptr<const Strands> strands) {
         m_strands = std::move(strands);
         m_frame.stop();
+        requestHeat();
         update();
     });
     connect(&m_hair, &HairJob::failed, this, &Viewport::said);
@@ -87,6 +90,7 @@ void Viewport::paintGL() {
     const std::shared_ptr<const Surface> surface = m_document.surface();
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
+    m_renderer->setTriangleColours(m_heat.colours());
     ViewSettings settings = viewSettings();
     settings.interactive = interacting();
     const double ratio = devicePixelRatio();
@@ -102,8 +106,10 @@ ViewSettings Viewport::viewSettings() const {
     // Looking around and painting, the artist wants to see the hair and the map.
     settings.showGuides = settings.showGuides && brush && !brush->paintsMap;
     if (brush && brush->paintsMap) {
-        const std::string& map = m_state.brushOptions().map.name;
-        if (m_document.groom().maps.find(map)) settings.overlayMap = map;
+        const Groom& groom = m_document.groom();
+        settings.overlayGroups = brush->paintsGroups;
+        const std::string& map = brush->paintsGroups ? groom.counts->groupMap.name : m_state.brushOptions().map.name;
+        if (groom.maps.find(map)) settings.overlayMap = map;
     }
     return settings;
 }
@@ -114,6 +120,7 @@ OverlayState Viewport::overlay() const {
     overlay.showBrush = m_state.brush() && (m_inside || m_adjust.active()) && !m_navigation.active();
     overlay.brushPixel = (m_adjust.active() ? m_adjust.centre() : m_pixel) * ratio;
     overlay.brushRadius = m_state.brushOptions().radius * ratio;
+    overlay.scale = ratio;
     overlay.brushStrength = m_state.brushOptions().strength;
     if (m_document.hasGroom()) {
         const auto count = [](std::size_t n) { return QLocale().toString(static_cast<qulonglong>(n)); };
@@ -159,6 +166,12 @@ void Viewport::requestHair() {
     m_hair.request(groom, m_document.surface(), live ? interactiveHairs : wanted, m_document.previewing());
 }
 
+void Viewport::requestHeat() {
+    if (!m_state.viewOptions().heat || !m_strands || m_strands == m_heatStrands) return;
+    m_heatStrands = m_strands;
+    m_heat.request(m_document.groom(), m_strands);
+}
+
 bool Viewport::interacting() const {
     return m_navigation.active() || m_document.previewing() || m_settle.isActive();
 }
@@ -169,7 +182,7 @@ void Viewport::interacted() {
 }
 
 bool Viewport::settled() const {
-    return !interacting() && !m_hair.busy();
+    return !interacting() && !m_hair.busy() && !m_heat.busy();
 }
 
 Bounds Viewport::sceneBounds() const {

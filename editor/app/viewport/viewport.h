@@ -5,6 +5,7 @@
 #include "editor/app/document.h"
 #include "editor/app/editor_state.h"
 #include "editor/app/hair_job.h"
+#include "editor/app/heat_job.h"
 #include "editor/app/viewport/brush_adjust.h"
 #include "editor/app/viewport/navigation.h"
 #include "editor/app/viewport/stroke_input.h"
@@ -67,6 +68,7 @@ protected:
 private:
     void documentChanged();
     void requestHair();
+    void requestHeat();
     void interacted();
     bool interacting() const;
     void press(glm::vec2 pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, float pressure);
@@ -87,6 +89,8 @@ private:
     StrokeInput m_stroke;
     BrushAdjust m_adjust;
     HairJob m_hair;
+    HeatJob m_heat;
+    std::shared_ptr<const Strands> m_heatStrands;  // that the newest request for colours was made from
     std::unique_ptr<Renderer> m_renderer;
     std::shared_ptr<const Strands> m_strands;
     Groom m_seen;  // what the last request for hair was made from
