@@ -192,6 +192,16 @@ const QHash<QString, Draw>& drawings() {
          [](QPainterPath& l, QPainterPath&) {
              polyline(l, {QPointF(5, 12), QPointF(19, 12)});
          }},
+        {"up",
+         [](QPainterPath& l, QPainterPath&) {
+             polyline(l, {QPointF(12, 19), QPointF(12, 5)});
+             polyline(l, {QPointF(6, 11), QPointF(12, 5), QPointF(18, 11)});
+         }},
+        {"down",
+         [](QPainterPath& l, QPainterPath&) {
+             polyline(l, {QPointF(12, 5), QPointF(12, 19)});
+             polyline(l, {QPointF(6, 13), QPointF(12, 19), QPointF(18, 13)});
+         }},
         {"close",
          [](QPainterPath& l, QPainterPath&) {
              polyline(l, {QPointF(6, 6), QPointF(18, 18)});

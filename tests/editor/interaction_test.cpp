@@ -12,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
@@ -230,6 +231,58 @@ private Q_SLOTS:
         QCOMPARE(m_window->area().messages().sentence(), said);
         QVERIFY(document().committed().maps.find(painted()));
         QCOMPARE(document().history().count(), 2);
+    }
+
+    void modifiersAreAListWithOneUndoEach() {
+        find<QWidget>("dock_hair")->raise();
+        const auto names = [&] {
+            QStringList all;
+            for (const Modifier& modifier : document().committed().groups->front().params.modifiers) {
+                all << QString::fromStdString(modifier.name);
+            }
+            return all;
+        };
+        const auto modifier = [&](int i) {
+            return document().committed().groups->front().params.modifiers.at(static_cast<std::size_t>(i));
+        };
+        const std::uint64_t bare = testing::groomDigest(document().committed());
+        find<QAction>("modifier_add_clump")->trigger();
+        find<QAction>("modifier_add_curl")->trigger();
+        QCOMPARE(names(), (QStringList{"clump", "curl"}));
+        QCOMPARE(document().history().count(), 2);
+        find<QToolButton>("modifier_curl_up")->click();
+        QCOMPARE(names(), (QStringList{"curl", "clump"}));
+        QVERIFY(!find<QToolButton>("modifier_curl_up")->isEnabled());
+        QVERIFY(!find<QToolButton>("modifier_clump_down")->isEnabled());
+        find<QCheckBox>("modifier_clump_switch")->click();
+        QVERIFY(!modifier(1).on);
+        QCOMPARE(document().history().count(), 4);
+        // A parameter of the form, which is folded out for a modifier that was just added.
+        auto* form = find<QWidget>("modifier_curl_form");
+        QVERIFY(form->isVisibleTo(form->parentWidget()));
+        auto* amount = form->findChild<QDoubleSpinBox*>("amount_box");
+        QVERIFY(amount);
+        amount->setFocus();
+        amount->selectAll();
+        QTest::keyClicks(amount, "0.25");
+        QTest::keyClick(amount, Qt::Key_Return);
+        QCOMPARE(modifier(0).amount.value, 0.25f);
+        QCOMPARE(document().history().count(), 5);
+        find<QToolButton>("modifier_curl_fold")->click();
+        QVERIFY(!form->isVisibleTo(form->parentWidget()));
+        find<QToolButton>("modifier_clump_remove")->click();
+        QCOMPARE(names(), QStringList{"curl"});
+        document().undo();
+        QCOMPARE(names(), (QStringList{"curl", "clump"}));
+        QVERIFY(!find<QCheckBox>("modifier_clump_switch")->isChecked());
+        const QList<QAction*> wholes = find<QMenu>("modifier_presets")->actions();
+        QVERIFY(!wholes.isEmpty());
+        wholes.front()->trigger();
+        QVERIFY(names() != (QStringList{"curl", "clump"}));
+        QVERIFY(checkGroom(document().committed()).empty());
+        while (document().history().canUndo()) document().undo();
+        QCOMPARE(testing::groomDigest(document().committed()), bare);
+        QVERIFY(!m_window->findChild<QCheckBox*>("modifier_clump_switch"));
     }
 
     void groupsArePaintedOnTheModel() {

@@ -6,7 +6,7 @@
 #include "editor/app/actions.h"
 #include "editor/app/exports.h"
 #include "editor/app/files.h"
-#include "editor/app/groom_actions.h"
+#include "editor/app/resources.h"
 #include "editor/app/viewport/viewport_area.h"
 #include "editor/app/widgets/message_bar.h"
 #include "tests/editor/window.h"
@@ -16,7 +16,9 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QPushButton>
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 
 using namespace whorl;
@@ -62,6 +64,7 @@ class UserTest : public QObject {
     std::filesystem::path m_folder;
     std::unique_ptr<MainWindow> m_window;
     QImage m_bald;
+    QImage m_hairy;
 
     Document& document() { return m_window->document(); }
     Viewport& view() { return *m_window->viewport(); }
@@ -99,10 +102,16 @@ private Q_SLOTS:
         if (real) {
             head = *real;
         } else {
-            // Without the data folder a ball stands for the head.
-            head = m_folder / "ball.whorl";
+            // Without the data folder the bust of the samples, bald and without maps, stands for the head.
+            const std::vector<std::filesystem::path> samples = sampleFiles();
+            const auto bust =
+                std::find_if(samples.begin(), samples.end(), [](const auto& file) { return file.stem() == "bust"; });
+            QVERIFY2(bust != samples.end(), "the samples are built with the program");
             Progress progress;
-            QVERIFY(saveDocument(makeGroom(testing::sphere(48, 64)), head, progress).ok());
+            const Result<OpenedDocument> sample = openDocument(*bust, progress);
+            QVERIFY(sample.ok());
+            head = m_folder / "bust.whorl";
+            QVERIFY(saveDocument(makeGroom(*sample->groom.mesh), head, progress).ok());
         }
         QVERIFY2(m_window->files().open(head), qPrintable(said()));
         QVERIFY(document().hasGroom());
@@ -138,7 +147,15 @@ private Q_SLOTS:
     }
 
     void placeGuides() {
-        QVERIFY2(m_window->groomActions().placeGuides(200, false), qPrintable(said()));
+        m_window->findChild<QWidget*>("dock_groom")->raise();
+        auto* wanted = m_window->findChild<QAbstractSpinBox*>("guides_box");
+        QVERIFY(wanted);
+        wanted->setFocus();
+        wanted->selectAll();
+        QTest::keyClicks(wanted, "200");
+        QTest::keyClick(wanted, Qt::Key_Return);
+        QCOMPARE(document().committed().counts->guides, 200);
+        QTest::mouseClick(m_window->findChild<QPushButton*>("groom_place_guides"), Qt::LeftButton);
         const auto count = document().committed().guides.count();
         QVERIFY2(count > 150 && count <= 200, qPrintable(QString::number(count)));
         Groom red = document().committed();
@@ -203,6 +220,11 @@ private Q_SLOTS:
         }
         QVERIFY(digests.size() > 6);
         QVERIFY(document().committed().guides.empty());
+        // The model is as bald as it was opened.
+        const BrushInfo* brush = m_window->state().brush();
+        m_window->actions().get("tool.look").trigger();
+        QVERIFY(differingPixels(m_bald, picture()) < m_bald.width() * m_bald.height() / 1000);
+        m_window->state().setBrush(brush);
         while (m_window->actions().get("edit.redo").isEnabled()) {
             digests.pop_back();
             m_window->actions().get("edit.redo").trigger();
@@ -226,6 +248,7 @@ private Q_SLOTS:
             keep(m_window->grab().toImage(), "user_test_window.png");
         }
         QVERIFY2(good, qPrintable(QString("%1 red, %2 differing").arg(red).arg(differing)));
+        m_hairy = hairy;
     }
 
     void nothingIsClipped() {
@@ -259,9 +282,18 @@ private Q_SLOTS:
         QVERIFY2(m_window->files().saveTo(file), qPrintable(said()));
         QVERIFY(document().clean());
         QVERIFY(m_window->windowTitle().contains("head.whorl"));
+        const Camera camera = view().camera();
         QVERIFY2(m_window->files().open(file), qPrintable(said()));
         QCOMPARE(testing::groomDigest(document().committed()), before);
         QCOMPARE(document().history().count(), 0);
+        // What comes back looks the same, too, from the same place: opening shows the guides and all.
+        view().setCamera(camera);
+        m_window->actions().get("tool.look").trigger();
+        const QImage again = picture();
+        QCOMPARE(again.size(), m_hairy.size());
+        const int differing = differingPixels(m_hairy, again);
+        if (differing > again.width() * again.height() / 1000) keep(again, "user_test_reopened.png");
+        QVERIFY2(differing <= again.width() * again.height() / 1000, qPrintable(QString::number(differing)));
     }
 
     void exportPackage() {

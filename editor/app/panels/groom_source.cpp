@@ -48,6 +48,15 @@ std::vector<ParamRef> GroomSource::values() {
     const std::size_t group = static_cast<std::size_t>(std::max(m_state.group(), 0));
     m_params = (*groom.groups)[std::min(group, groom.groups->size() - 1)].params;
     m_counts = *groom.counts;
+    if (ofModifier()) {
+        const std::string name = m_block.substr(m_block.find('/') + 1);
+        for (const Modifier& modifier : m_params.modifiers) {
+            // One of another kind has other rows: its own form is on the way.
+            const bool same = m_modifier.name.empty() || modifier.kind() == m_modifier.kind();
+            if (modifier.name == name && same) m_modifier = modifier;
+        }
+        return paramsOf(m_modifier);
+    }
     return refs(m_params, m_counts);
 }
 
@@ -55,6 +64,10 @@ std::vector<ParamRef> GroomSource::defaults() {
     // Statics: the references must outlive the call, and defaults never change.
     static HairParams params;
     static CountParams counts;
+    if (ofModifier()) {
+        m_defaultModifier.params = defaultModifierParams(m_modifier.kind());
+        return paramsOf(m_defaultModifier);
+    }
     return refs(params, counts);
 }
 
@@ -67,7 +80,7 @@ std::string GroomSource::path(const ParamRef& param) const {
 }
 
 QString GroomSource::undoText(const ParamRef& param) const {
-    QString block = QString::fromStdString(m_block);
+    QString block = QString::fromStdString(m_block.substr(ofModifier() ? m_block.find('/') + 1 : 0));
     block[0] = block[0].toUpper();
     return tr("Change %1 (%2)").arg(qtext(param.info.label), block);
 }

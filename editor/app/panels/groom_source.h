@@ -11,7 +11,8 @@
 
 namespace whorl {
 
-/// One block of the active group ("frizz"), or of the whole groom ("counts").
+/// One block of the active group ("frizz", or "modifiers/NAME" of a modifier that it has), or of the whole groom
+/// ("counts").
 class GroomSource : public ParamSource {
     Q_OBJECT
 
@@ -36,11 +37,14 @@ private:
     /// "Crown: tip amount of frizz".
     QString undoText(const ParamRef& param) const;
     std::vector<ParamRef> refs(HairParams& params, CountParams& counts) const;
+    bool ofModifier() const { return m_block.starts_with("modifiers/"); }
     void documentChanged();
 
     Document& m_document;
     EditorState& m_state;
     std::string m_block;
+    Modifier m_modifier;  // of a block "modifiers/NAME": as it was seen last, also when it is gone
+    Modifier m_defaultModifier;
     HairParams m_params;  // copies that `values` points into
     CountParams m_counts;
     Cow<std::vector<Group>> m_seenGroups;

@@ -3,6 +3,7 @@
 #include "editor/app/icons.h"
 #include "editor/app/panels/groom_source.h"
 #include "editor/app/panels/group_swatch.h"
+#include "editor/app/panels/modifier_panel.h"
 #include "editor/app/panels/panels.h"
 #include "editor/app/widgets/message_bar.h"
 #include "editor/app/widgets/param_form.h"
@@ -65,6 +66,10 @@ HairPanel::HairPanel(PanelContext context, QWidget* parent)
         section->setToolTip(qtext(info.tip));
         stack->addWidget(section);
     });
+    auto* modifiers = new Section(tr("Modifiers"), new ModifierPanel(m_context));
+    modifiers->setObjectName("modifiers_section");
+    modifiers->setToolTip(tr("Clumps, curls, noise: a list that works on the hair from top to bottom"));
+    stack->addWidget(modifiers);
     stack->addStretch();
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);

@@ -92,7 +92,8 @@ void Viewport::paintGL() {
     m_renderer->setStrands(m_strands);
     m_renderer->setTriangleColours(m_heat.colours());
     ViewSettings settings = viewSettings();
-    settings.interactive = interacting();
+    // Until the hair is there, a quick picture: the final one would be drawn twice.
+    settings.interactive = interacting() || m_hair.busy();
     const double ratio = devicePixelRatio();
     const glm::ivec2 size(static_cast<int>(width() * ratio), static_cast<int>(height() * ratio));
     m_renderer->draw(m_camera, settings, overlay(), defaultFramebufferObject(), size);
