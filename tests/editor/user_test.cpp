@@ -6,7 +6,6 @@
 #include "editor/app/actions.h"
 #include "editor/app/exports.h"
 #include "editor/app/files.h"
-#include "editor/app/resources.h"
 #include "editor/app/viewport/viewport_area.h"
 #include "editor/app/widgets/message_bar.h"
 #include "tests/editor/window.h"
@@ -18,7 +17,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTest>
-#include <algorithm>
 #include <cmath>
 
 using namespace whorl;
@@ -102,18 +100,10 @@ private Q_SLOTS:
         if (real) {
             head = *real;
         } else {
-            // Without the data folder the bust of the samples, bald and without maps, stands for the head.
-            const std::vector<std::filesystem::path> samples = sampleFiles();
-            const auto bust =
-                std::find_if(samples.begin(), samples.end(), [](const auto& file) { return file.stem() == "bust"; });
-            QVERIFY2(bust != samples.end(), "the samples are built with the program");
+            // Without the data folder a ball stands for the head.
+            head = m_folder / "ball.whorl";
             Progress progress;
-            const Result<OpenedDocument> sample = openDocument(*bust, progress);
-            QVERIFY(sample.ok());
-            head = m_folder / "bust.whorl";
-            SurfaceMesh mesh = *sample->groom.mesh;
-            for (MeshPart& part : mesh.parts) part.texture.clear();
-            QVERIFY(saveDocument(makeGroom(std::move(mesh)), head, progress).ok());
+            QVERIFY(saveDocument(makeGroom(testing::sphere(48, 64)), head, progress).ok());
         }
         QVERIFY2(m_window->files().open(head), qPrintable(said()));
         QVERIFY(document().hasGroom());
