@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
 
+#include "core/hair/batch.h"
 #include "core/hair/changes.h"
-#include "core/hair/evaluate.h"
 
 #include <algorithm>
 #include <atomic>
 #include <new>
-#include <numeric>
 
 namespace whorl {
 namespace {
@@ -21,41 +20,15 @@ Error tooLarge(std::uint64_t hairs) {
             "more parts."};
 }
 
-// Hair of one range, with everything that it was made of.
-struct Batch {
-    HairRange range;
-    std::vector<HairRoot> roots;
-    Bindings bindings;
-    std::vector<HairTraits> traits;
-    std::vector<std::uint32_t> grown;
-    std::shared_ptr<Strands> strands = std::make_shared<Strands>();
-};
-
 // Above this many bytes of hair no memory is kept for the next copy.
 constexpr std::size_t mostSpare = std::size_t{256} << 20;
 
-std::vector<std::uint32_t> allOf(const Strands& strands) {
-    std::vector<std::uint32_t> which(strands.count());
-    std::iota(which.begin(), which.end(), 0u);
-    return which;
-}
-
 }  // namespace
 
-HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partCount) {
-    if (partCount == 0 || part >= partCount) return {count, count};
-    const auto edge = [&](std::uint64_t p) { return static_cast<std::uint32_t>(std::uint64_t{count} * p / partCount); };
-    return {edge(part), edge(std::uint64_t{part} + 1)};
-}
-
 struct Generator::State {
-    Groom groom;         // of the last call that ended well
-    bool valid = false;  // groom, sampler, index and shapes belong together
+    HairParts parts;     // its groom is that of the last call that ended well
+    bool valid = false;  // the parts belong together
     std::shared_ptr<const Surface> surface;
-    std::optional<SkinGuard> guard;  // of the surface
-    SubTriangleSampler sampler;
-    GuideIndex index;
-    GuideShapes shapes;
 
     // Hair kept by generate().
     bool batchValid = false;
@@ -72,11 +45,8 @@ struct Generator::State {
     std::vector<std::uint8_t> changedBlocks;
 
     Result<void> prepare(const Groom& next, Progress& progress);
-    const SkinGuard* skin();
-    HairSources sourcesOf(const Batch& made, const TraitLookup& lookup);
-    std::uint32_t hairCount(const GenerateOptions& options) const;
+    void guardSkin();
 
-    void makeBatch(Batch& made, std::uint32_t count, Progress& progress);
     void ownStrands(bool keep);
     void renewBatch(std::uint32_t count, HairRange range, Progress& progress);
     std::vector<std::uint32_t> strandsOfChangedGuides() const;
@@ -85,6 +55,7 @@ struct Generator::State {
 // Brings sampler, index and shapes up to `next`, and notes what changed. Cancelled: everything is made anew next time.
 Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     const bool known = valid;
+    const Groom& groom = parts.groom;
     valid = false;
     densityChanged = !known || !sameDensity(groom, next);
     bindingsChanged = !known || !sameBindings(groom, next);
@@ -102,54 +73,30 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
             batchValid = false;
             return built.error();
         }
-        sampler = std::move(*built);
+        parts.sampler = std::move(*built);
     }
-    if (bindingsChanged) index = GuideIndex(next);
-    if (shapesRebuilt) shapes = GuideShapes(next);
+    if (bindingsChanged) parts.index = GuideIndex(next);
+    if (shapesRebuilt) parts.shapes = GuideShapes(next);
     for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
-        if (changedBlocks[b]) shapes.update(next, b);
-    if (surface && !surface->shared.sameAs(next.mesh)) {
-        surface.reset();
-        guard.reset();
-    }
-    groom = next;
+        if (changedBlocks[b]) parts.shapes.update(next, b);
+    parts.groom = next;
+    guardSkin();
     valid = true;
     return {};
 }
 
-const SkinGuard* Generator::State::skin() {
-    const bool wanted = std::any_of(groom.groups->begin(), groom.groups->end(),
-                                    [](const Group& group) { return group.params.general.keepOutside; });
-    if (!wanted) return nullptr;
-    if (!surface) surface = std::make_shared<Surface>(groom.mesh);
-    if (!guard || &guard->surface() != surface.get()) guard.emplace(surface);
-    return &*guard;
-}
-
-HairSources Generator::State::sourcesOf(const Batch& made, const TraitLookup& lookup) {
-    return {groom, made.roots, made.bindings, made.traits, shapes, lookup.kinkOffset(), skin()};
-}
-
-std::uint32_t Generator::State::hairCount(const GenerateOptions& options) const {
-    return options.hairCount.value_or(static_cast<std::uint32_t>(std::max(groom.counts->hairs, 0)));
-}
-
-// Everything of `made.range` from nothing.
-void Generator::State::makeBatch(Batch& made, std::uint32_t count, Progress& progress) {
-    const DensityLookup density(groom);
-    const RootSource source{*groom.mesh, sampler, density, count, static_cast<std::uint32_t>(groom.counts->seed)};
-    const TraitLookup lookup(groom);
-    made.roots = makeRoots(source, made.range, progress);
-    made.bindings = bindHairs(groom, index, made.roots, progress);
-    made.traits = makeTraits(lookup, made.roots, progress);
-    if (progress.cancelled()) return;
-    const HairSources sources = sourcesOf(made, lookup);
-    Strands& strands = *made.strands;
-    made.grown = layOut(sources, strands);
-    evaluateHairs(sources, made.grown, allOf(strands), strands, progress);
+void Generator::State::guardSkin() {
+    if (surface && !surface->shared.sameAs(parts.groom.mesh)) surface.reset();
+    if (!wantsSkin(parts.groom)) {
+        parts.guard.reset();
+        return;
+    }
+    if (!surface) surface = std::make_shared<Surface>(parts.groom.mesh);
+    if (!parts.guard || &parts.guard->skin() != &surface->skin()) parts.guard.emplace(surface->sharedSkin());
 }
 
 std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
+    const Groom& groom = parts.groom;
     std::vector<std::uint8_t> changed(groom.guides.count(), 0);
     for (std::size_t b = 0; b < changedBlocks.size(); ++b) {
         if (!changedBlocks[b]) continue;
@@ -195,15 +142,16 @@ void Generator::State::renewBatch(std::uint32_t count, HairRange range, Progress
     batch.range = range;
     if (!rootsKept) {
         ownStrands(false);
-        makeBatch(batch, count, progress);
+        makeBatch(parts, HairLookups(parts.groom), count, batch, progress);
         batchValid = !progress.cancelled();
         return;
     }
+    const Groom& groom = parts.groom;
     const TraitLookup lookup(groom);
-    if (bindingsChanged) batch.bindings = bindHairs(groom, index, batch.roots, progress);
+    if (bindingsChanged) batch.bindings = bindHairs(groom, parts.index, batch.roots, progress);
     if (shapeChanged || lookChanged) batch.traits = makeTraits(lookup, batch.roots, progress);
     if (progress.cancelled()) return;
-    const HairSources sources = sourcesOf(batch, lookup);
+    const HairSources sources = batch.sourcesOf(parts, lookup);
     const bool all = bindingsChanged || shapeChanged || shapesRebuilt;
     const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : strandsOfChangedGuides();
     if (all || lookChanged || !some.empty()) ownStrands(!all);
@@ -240,9 +188,9 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
     HairRange range;
     try {
         // The seed moves every root.
-        if (s.groom.counts->seed != groom.counts->seed) s.batchValid = false;
+        if (s.parts.groom.counts->seed != groom.counts->seed) s.batchValid = false;
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
-        const std::uint32_t count = s.hairCount(options);
+        const std::uint32_t count = hairCountOf(groom, options);
         range = partRange(count, options.part, options.partCount);
         if (range.last - range.first <= mostKept) {
             s.renewBatch(count, range, progress);
@@ -277,21 +225,7 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
         // The kept hair does not follow this groom.
         s.batchValid = false;
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
-        const std::uint32_t count = s.hairCount(options);
-        const HairRange range = partRange(count, options.part, options.partCount);
-        const std::uint32_t step = std::max(blockSize, 1u);
-        Batch block;
-        for (std::uint64_t first = range.first; first < range.last; first += step) {
-            block.range = {static_cast<std::uint32_t>(first),
-                           static_cast<std::uint32_t>(std::min<std::uint64_t>(first + step, range.last))};
-            s.makeBatch(block, count, progress);
-            if (progress.cancelled()) return cancelledError();
-            if (block.strands->count() > 0 && !sink(*block.strands)) return cancelledError();
-            progress.report(
-                static_cast<float>(block.range.last - range.first) / static_cast<float>(range.last - range.first),
-                "Growing hair");
-        }
-        return {};
+        return streamBatches(s.parts, HairLookups(s.parts.groom), options, blockSize, sink, progress);
     } catch (const std::bad_alloc&) {
         s.valid = false;
         return tooLarge(blockSize);

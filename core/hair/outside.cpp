@@ -50,10 +50,8 @@ glm::vec3 lastOutside(const DistanceField& skin, const glm::vec3& from, const gl
 
 }  // namespace
 
-SkinGuard::SkinGuard(std::shared_ptr<const Surface> surface) : m_surface(std::move(surface)) {
-    m_skin = &m_surface->skin();
-    m_clearance = 0.25f * m_skin->spacing();
-}
+SkinGuard::SkinGuard(std::shared_ptr<const DistanceField> skin)
+    : m_skin(std::move(skin)), m_clearance(0.25f * m_skin->spacing()) {}
 
 // True when the way from a vertex that is `distanceFrom` away from the skin to one that is `distanceTo` goes deep into
 // it.

@@ -2,7 +2,7 @@
 // Keeps hair out of the head.
 #pragma once
 
-#include "core/surface/surface.h"
+#include "core/surface/distance_field.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,12 +11,12 @@
 
 namespace whorl {
 
-/// The skin of a surface and how hair keeps away from it. Immutable once made; any thread may ask.
+/// The skin of a mesh and how hair keeps away from it. Immutable once made; any thread may ask.
 class SkinGuard {
 public:
-    explicit SkinGuard(std::shared_ptr<const Surface> surface);
+    explicit SkinGuard(std::shared_ptr<const DistanceField> skin);
 
-    const Surface& surface() const { return *m_surface; }
+    const DistanceField& skin() const { return *m_skin; }
     /// Distance that hair keeps from the skin once it has left its root: a part of the distance field's spacing, which
     /// is about what the field can be wrong by.
     float clearance() const { return m_clearance; }
@@ -31,8 +31,7 @@ public:
 private:
     bool dives(const glm::vec3& from, float distanceFrom, const glm::vec3& to, float distanceTo) const;
 
-    std::shared_ptr<const Surface> m_surface;
-    const DistanceField* m_skin = nullptr;
+    std::shared_ptr<const DistanceField> m_skin;
     float m_clearance = 0.0f;
 };
 

@@ -125,7 +125,7 @@ Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surf
     const TraitLookup lookup(groom);
     const bool outside = std::any_of(groom.groups->begin(), groom.groups->end(),
                                      [](const Group& group) { return group.params.general.keepOutside; });
-    const std::optional<SkinGuard> guard = outside ? std::optional<SkinGuard>(std::move(surface)) : std::nullopt;
+    const std::optional<SkinGuard> guard = outside ? std::optional<SkinGuard>(surface->sharedSkin()) : std::nullopt;
     const SkinGuard* skin = guard ? &*guard : nullptr;
 
     const auto count = options.hairCount.value_or(static_cast<std::uint32_t>(groom.counts->hairs));

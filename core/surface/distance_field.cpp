@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/surface/band_search.h"
 #include "core/surface/pseudo_normals.h"
+#include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
 
@@ -58,9 +59,9 @@ void fillBeyondBand(const NodeGrid& grid, float band, std::vector<float>& values
 
 }  // namespace
 
-DistanceField DistanceField::build(const SurfaceQuery& query, int resolution) {
+DistanceField DistanceField::build(const SurfaceMesh& mesh, int resolution) {
     DistanceField field;
-    const Bounds bounds = boundsOf(query.mesh());
+    const Bounds bounds = boundsOf(mesh);
     if (bounds.empty()) return field;
     const glm::vec3 size = bounds.size();
     const float longest = std::max({size.x, size.y, size.z});
@@ -74,10 +75,10 @@ DistanceField DistanceField::build(const SurfaceQuery& query, int resolution) {
     for (int axis = 0; axis < 3; ++axis)
         grid.size[axis] = static_cast<int>(std::ceil(size[axis] / grid.spacing)) + 1 + 2 * margin;
 
-    const PseudoNormals sides(query.mesh());
+    const PseudoNormals sides(mesh);
     std::vector<float> values(grid.count(), unknown);
     const float band = bandNodes * grid.spacing;
-    searchBand(query.mesh(), grid, band, [&](const NodeHit& hit) {
+    searchBand(mesh, grid, band, [&](const NodeHit& hit) {
         values[hit.index] = sides.inside(hit.position, hit.nearest) ? -hit.distance : hit.distance;
     });
     field.m_band = band;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/surface/surface_query.h"
+#include "core/model/surface_mesh.h"
 
 #include <glm/vec3.hpp>
 
@@ -38,7 +38,7 @@ public:
 
     /// `resolution`: nodes along the longest side of the mesh's box (16 to 256). The band is about 6 nodes wide each
     /// way. Same bytes for any number of threads.
-    static DistanceField build(const SurfaceQuery& query, int resolution = 128);
+    static DistanceField build(const SurfaceMesh& mesh, int resolution = 128);
 
     Sample sample(const glm::vec3& p) const;
     float distance(const glm::vec3& p) const { return sample(p).distance(); }

@@ -5,8 +5,9 @@ namespace whorl {
 
 Surface::Surface(Cow<SurfaceMesh> mesh) : shared(mesh), query(std::move(mesh)), bounds(boundsOf(*shared)) {}
 
-const DistanceField& Surface::skin() const {
-    std::call_once(m_skinOnce, [this] { m_skin = DistanceField::build(query); });
+std::shared_ptr<const DistanceField> Surface::sharedSkin() const {
+    std::call_once(m_skinOnce,
+                   [this] { m_skin = std::make_shared<const DistanceField>(DistanceField::build(mesh())); });
     return m_skin;
 }
 

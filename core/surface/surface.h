@@ -19,7 +19,8 @@ public:
 
     const SurfaceMesh& mesh() const { return query.mesh(); }
     /// Made at the first call (tens of milliseconds to a second), then kept.
-    const DistanceField& skin() const;
+    const DistanceField& skin() const { return *sharedSkin(); }
+    std::shared_ptr<const DistanceField> sharedSkin() const;
     /// What painting has found out about the newest shape of map, for as long as the surface lives: see
     /// core/brushes/paint_places.h. Null at first.
     std::shared_ptr<PaintPlaces> paintPlaces() const;
@@ -31,7 +32,7 @@ public:
 
 private:
     mutable std::once_flag m_skinOnce;
-    mutable DistanceField m_skin;
+    mutable std::shared_ptr<const DistanceField> m_skin;
     mutable std::mutex m_placesMutex;
     mutable std::shared_ptr<PaintPlaces> m_places;
 };

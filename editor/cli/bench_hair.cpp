@@ -65,7 +65,7 @@ Groom benchGroom(bool outside, bool kink) {
     const DensityLookup density(groom);
     const Result<SubTriangleSampler> sampler =
         SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
-    const SkinGuard guard(std::make_shared<const Surface>(groom.mesh));
+    const SkinGuard guard(std::make_shared<const DistanceField>(DistanceField::build(*groom.mesh)));
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const SurfacePoint root = sampler->stratifiedRoot(i, 2000, 7);
         const glm::vec3 start = positionAt(*groom.mesh, root), normal = normalAt(*groom.mesh, root);

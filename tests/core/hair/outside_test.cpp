@@ -78,7 +78,7 @@ private Q_SLOTS:
     }
 
     void hairOutsideStaysAndRootsNeverMove() {
-        const SkinGuard guard(sphereSurface());
+        const SkinGuard guard(sphereSurface()->sharedSkin());
         std::vector<glm::vec3> points;
         std::vector<float> ease;
         for (int v = 0; v < 8; ++v) {
@@ -97,8 +97,8 @@ private Q_SLOTS:
     // Moving a vertex towards and through the skin moves the result without a step (a fifth of a millimetre: the
     // facets of the mesh turn the way out).
     void isContinuous() {
-        const SkinGuard guard(std::make_shared<const Surface>(Cow<SurfaceMesh>(testing::sphere(48, 96))));
-        const DistanceField& skin = guard.surface().skin();
+        const SkinGuard guard(std::make_shared<const DistanceField>(DistanceField::build(testing::sphere(48, 96))));
+        const DistanceField& skin = guard.skin();
         const std::vector<float> ease{0.0f, 1.0f};
         glm::vec3 before(0.0f);
         for (int step = 0; step < 2000; ++step) {
@@ -113,8 +113,8 @@ private Q_SLOTS:
 
     // The coarse grid never hides a vertex that the field would move.
     void farFromTheSkinNothingWouldMove() {
-        const SkinGuard guard(sphereSurface());
-        const DistanceField& skin = guard.surface().skin();
+        const SkinGuard guard(sphereSurface()->sharedSkin());
+        const DistanceField& skin = guard.skin();
         std::size_t moved = 0;
         for (std::uint64_t i = 0; i < 200000; ++i) {
             const glm::vec3 p(0.26f * randomFloat(1, i, 0) - 0.13f, 0.26f * randomFloat(1, i, 1) - 0.13f,
@@ -131,8 +131,8 @@ private Q_SLOTS:
 
     // A hair through the whole head is laid around it instead of showing again on the other side.
     void aHairThroughTheHeadGoesAround() {
-        const SkinGuard guard(sphereSurface());
-        const DistanceField& skin = guard.surface().skin();
+        const SkinGuard guard(sphereSurface()->sharedSkin());
+        const DistanceField& skin = guard.skin();
         std::vector<glm::vec3> points;
         std::vector<float> ease;
         for (int v = 0; v <= 30; ++v) {

@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "core/base/simd.h"
 #include "core/surface/band_search.h"
+#include "core/surface/surface_query.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -60,7 +61,7 @@ private Q_SLOTS:
     void sphereHasItsDistances() {
         const float radius = 0.1f;
         const SurfaceQuery query{testing::sphere(96, 128, radius)};
-        const DistanceField field = DistanceField::build(query, 96);
+        const DistanceField field = DistanceField::build(query.mesh(), 96);
         int inBand = 0;
         for (std::uint64_t i = 0; i < 20000; ++i) {
             const glm::vec3 p = randomPoint(1, i, 0.26f);
@@ -84,7 +85,7 @@ private Q_SLOTS:
 
     void aSampleSaysBothAndNeverJumps() {
         const SurfaceQuery ball{testing::sphere(40, 48, 0.1f)};
-        const DistanceField field = DistanceField::build(ball, 64);
+        const DistanceField field = DistanceField::build(ball.mesh(), 64);
         const float step = 0.01f * field.spacing();
         for (std::uint64_t i = 0; i < 20000; ++i) {
             const glm::vec3 p = randomPoint(21, i, 0.3f);
@@ -100,7 +101,7 @@ private Q_SLOTS:
         // Sampled at the nodes, trilinear mixing takes no part. The corner of the grid is seven spacings off the box.
         const SurfaceMesh mesh = testing::sphere(9, 11);
         const SurfaceQuery query{SurfaceMesh(mesh)};
-        const DistanceField field = DistanceField::build(query, 32);
+        const DistanceField field = DistanceField::build(query.mesh(), 32);
         const glm::vec3 origin = boundsOf(mesh).min - 7.0f * field.spacing();
         int negative = 0;
         for (int i = 0; i < 4000; ++i) {
@@ -160,9 +161,9 @@ private Q_SLOTS:
 
     void sameForAnyNumberOfThreads() {
         const SurfaceQuery query{testing::sphere(20, 24)};
-        const DistanceField many = DistanceField::build(query, 64);
+        const DistanceField many = DistanceField::build(query.mesh(), 64);
         const ThreadLimit one(1);
-        const DistanceField alone = DistanceField::build(query, 64);
+        const DistanceField alone = DistanceField::build(query.mesh(), 64);
         for (std::uint64_t i = 0; i < 5000; ++i) {
             const glm::vec3 p = randomPoint(4, i, 0.3f);
             QCOMPARE(many.distance(p), alone.distance(p));
@@ -173,8 +174,8 @@ private Q_SLOTS:
         const SurfaceMesh mesh = testing::sphere(20, 24);
         const SurfaceQuery whole{SurfaceMesh(mesh)};
         const SurfaceQuery cut{split(mesh)};
-        const DistanceField a = DistanceField::build(whole, 48);
-        const DistanceField b = DistanceField::build(cut, 48);
+        const DistanceField a = DistanceField::build(whole.mesh(), 48);
+        const DistanceField b = DistanceField::build(cut.mesh(), 48);
         for (std::uint64_t i = 0; i < 5000; ++i) {
             const glm::vec3 p = randomPoint(5, i, 0.3f);
             QVERIFY(std::abs(a.distance(p) - b.distance(p)) < 1e-6f);
@@ -183,7 +184,7 @@ private Q_SLOTS:
 
     void openSheetHasAnInsideOnlyBehindIt() {
         const SurfaceQuery query{testing::plane(10)};
-        const DistanceField field = DistanceField::build(query, 64);
+        const DistanceField field = DistanceField::build(query.mesh(), 64);
         const float step = field.spacing();
         for (std::uint64_t i = 0; i < 2000; ++i) {
             const glm::vec3 p = randomPoint(6, i, 0.9f);
@@ -203,7 +204,7 @@ private Q_SLOTS:
         SurfaceMesh inner = testing::sphere(32, 40, 0.05f);
         flip(inner);
         const SurfaceQuery query{joined(testing::sphere(48, 60, 0.1f), inner)};
-        const DistanceField field = DistanceField::build(query, 200);
+        const DistanceField field = DistanceField::build(query.mesh(), 200);
         QCOMPARE(field.distance(glm::vec3(0.0f)), field.band());
         QCOMPARE(field.distance({0.075f, 0.0f, 0.0f}), -field.band());
         QCOMPARE(field.distance({0.12f, 0.0f, 0.0f}), field.band());
@@ -214,7 +215,7 @@ private Q_SLOTS:
         SurfaceMesh back = front;
         flip(back);
         const SurfaceQuery query{joined(front, back)};
-        const DistanceField field = DistanceField::build(query, 32);
+        const DistanceField field = DistanceField::build(query.mesh(), 32);
         for (std::uint64_t i = 0; i < 2000; ++i) QVERIFY(field.distance(randomPoint(8, i, 1.2f)) >= 0.0f);
     }
 
@@ -231,7 +232,7 @@ private Q_SLOTS:
         mesh.triangles.emplace_back(tip, tip, tip);
         for (int k = 0; k < 3; ++k) mesh.cornerUvs.emplace_back(0.0f, 0.0f);
         const SurfaceQuery query{std::move(mesh)};
-        const DistanceField field = DistanceField::build(query, 64);
+        const DistanceField field = DistanceField::build(query.mesh(), 64);
         for (std::uint64_t i = 0; i < 5000; ++i) {
             const glm::vec3 p = randomPoint(9, i, 0.22f);
             if (glm::distance(p, glm::vec3(0.1f, 0.0f, 0.0f)) < 0.04f) continue;
@@ -242,16 +243,16 @@ private Q_SLOTS:
 
     void nothingToMeasure() {
         const SurfaceQuery empty{SurfaceMesh{}};
-        const DistanceField none = DistanceField::build(empty);
+        const DistanceField none = DistanceField::build(empty.mesh());
         QVERIFY(none.distance(glm::vec3(0.0f)) >= 0.0f);
         QCOMPARE(none.gradient(glm::vec3(0.0f)), glm::vec3(0.0f));
         SurfaceMesh point = testing::plane(1);
         for (glm::vec3& p : point.positions) p = glm::vec3(1.0f);
         const SurfaceQuery dot{std::move(point)};
-        QVERIFY(DistanceField::build(dot).distance(glm::vec3(0.0f)) >= 0.0f);
+        QVERIFY(DistanceField::build(dot.mesh()).distance(glm::vec3(0.0f)) >= 0.0f);
         const float nan = std::numeric_limits<float>::quiet_NaN();
         const SurfaceQuery ball{testing::sphere(8, 8)};
-        const DistanceField field = DistanceField::build(ball, 16);
+        const DistanceField field = DistanceField::build(ball.mesh(), 16);
         QCOMPARE(field.distance(glm::vec3(nan)), field.band());
         QCOMPARE(field.gradient(glm::vec3(nan)), glm::vec3(0.0f));
         QCOMPARE(field.distance(glm::vec3(-1e30f)), field.band());
