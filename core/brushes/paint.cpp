@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/brushes/brush_list.h"
 #include "core/brushes/stroke_scratch.h"
+#include "core/sampling/density_total.h"
+
+#include <optional>
 
 namespace whorl {
 namespace {
@@ -18,6 +21,7 @@ private:
         if (map->channels() != 1 || map->empty()) {
             return Error{"The map \"" + settings.map + "\" holds colours; choose a map of numbers to paint."};
         }
+        if (groom.counts->densityTotal == 0.0f && drivesDensity(groom, settings.map)) m_before = groom;
         return {};
     }
 
@@ -34,9 +38,14 @@ private:
         // Without perspective rays are parallel: an eye far along this one faces the same triangles.
         dab.eye = step.view.rayOrigin(step.pixel);
         step.changed = canvas->paint(step.groom.maps, name, dab, step.settings.invert ? 0.0f : step.settings.value);
+        // The rest of the hair stays as it is. The mirror image may have seen to that.
+        if (step.changed && m_before && step.groom.counts->densityTotal == 0.0f)
+            step.groom.counts.edit().densityTotal = densityTotalOf(*m_before);
+        if (step.changed) m_before.reset();
     }
 
     bool m_hard;
+    std::optional<Groom> m_before;  // while the number of hairs is to be pinned
 };
 
 }  // namespace

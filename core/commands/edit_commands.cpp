@@ -80,6 +80,7 @@ Result<std::string> fillMap(CommandContext& context, Arguments arguments, Progre
         map.srgb = old->srgb;
     }
     context.groom.maps.set(arguments[0], std::move(map));
+    context.groom.countAnew();
     return std::string();
 }
 

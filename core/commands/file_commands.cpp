@@ -55,6 +55,7 @@ Result<std::string> loadMap(CommandContext& context, Arguments arguments, Progre
     auto map = readImage(arguments[1], ImageUse::Data, &context.problems);
     if (!map) return map.error();
     context.groom.maps.set(arguments[0], std::move(*map));
+    context.groom.countAnew();
     return std::string();
 }
 
@@ -76,8 +77,9 @@ Result<std::string> generate(CommandContext& context, Arguments arguments, Progr
         if (!options.hairCount)
             return Error{"The number of hairs must be from 0 to 10000000, not \"" + arguments[1] + "\"."};
     }
-    const auto count =
-        writeHair(context.groom, options, arguments[0], progress, context.surfaces.get(context.groom.mesh));
+    Groom groom = context.groom;
+    if (options.hairCount) groom.countAnew();
+    const auto count = writeHair(groom, options, arguments[0], progress, context.surfaces.get(groom.mesh));
     if (!count) return count.error();
     return std::to_string(*count) + " hairs";
 }

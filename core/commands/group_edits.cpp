@@ -116,6 +116,7 @@ Result<void> removeGroup(Groom& groom, int group) {
     }
     std::vector<Group>& groups = groom.groups.edit();
     groups.erase(groups.begin() + group);
+    groom.countAnew();
     return {};
 }
 
@@ -138,6 +139,7 @@ Result<void> removeMap(Groom& groom, std::string_view name) {
     const std::string gone(name);
     if (!groom.maps.erase(gone)) return Error{"There is no map \"" + gone + "\"."};
     replaceMapName(groom, gone, {});
+    groom.countAnew();
     return {};
 }
 

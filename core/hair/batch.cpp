@@ -12,29 +12,47 @@ std::vector<std::uint32_t> allOf(const Strands& strands) {
     return which;
 }
 
-HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partCount) {
-    if (partCount == 0 || part >= partCount) return {count, count};
-    const auto edge = [&](std::uint64_t p) { return static_cast<std::uint32_t>(std::uint64_t{count} * p / partCount); };
-    return {edge(part), edge(std::uint64_t{part} + 1)};
-}
-
 bool wantsSkin(const Groom& groom) {
     return std::any_of(groom.groups->begin(), groom.groups->end(),
                        [](const Group& group) { return group.params.general.keepOutside; });
 }
 
-std::uint32_t hairCountOf(const Groom& groom, const GenerateOptions& options) {
-    return options.hairCount.value_or(static_cast<std::uint32_t>(std::max(groom.counts->hairs, 0)));
+namespace {
+
+double hairCountOf(const Groom& groom, const GenerateOptions& options) {
+    if (options.hairCount) return static_cast<double>(*options.hairCount);
+    return static_cast<double>(std::max(groom.counts->hairs, 0));
 }
 
-void makeBatch(const HairParts& parts, const HairLookups& lookups, std::uint32_t count, Batch& batch,
-               Progress& progress) {
-    const Groom& groom = parts.groom;
-    const RootSource source{*groom.mesh, parts.sampler, lookups.density, count,
-                            static_cast<std::uint32_t>(groom.counts->seed)};
-    batch.roots = makeRoots(source, batch.range, progress);
-    batch.bindings = bindHairs(groom, parts.index, batch.roots, progress);
-    batch.traits = makeTraits(lookups.traits, batch.roots, progress);
+}  // namespace
+
+HairWish wishFor(const HairParts& parts, const GenerateOptions& options) {
+    const float lod = std::clamp(options.lod, 0.0f, 1.0f);
+    const double hairs = hairCountOf(parts.groom, options);
+    const RootRequest all =
+        parts.countedFor == hairs ? parts.counted : requestFor(*parts.groom.counts, parts.sampler, hairs);
+    return {{all.rate * static_cast<double>(lod), all.seed}, parts.sampler.part(options.part, options.partCount), lod};
+}
+
+void countHairs(HairParts& parts, const GenerateOptions& options) {
+    const double hairs = hairCountOf(parts.groom, options);
+    if (parts.countedFor == hairs) return;
+    parts.counted = requestFor(*parts.groom.counts, parts.sampler, hairs);
+    parts.countedFor = hairs;
+}
+
+std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,
+                                  Progress& progress) {
+    std::vector<HairTraits> traits = makeTraits(lookup, roots, progress);
+    if (lod < 1.0f) {
+        for (HairTraits& t : traits) widen(t, lod);
+    }
+    return traits;
+}
+
+void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress) {
+    batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress);
+    batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress);
     if (progress.cancelled()) return;
     const HairSources sources = batch.sourcesOf(parts, lookups.traits);
     batch.grown = layOut(sources, *batch.strands);
@@ -44,19 +62,28 @@ void makeBatch(const HairParts& parts, const HairLookups& lookups, std::uint32_t
 Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
                            std::uint32_t blockSize, const std::function<bool(const Strands&)>& sink,
                            Progress& progress) {
-    const std::uint32_t count = hairCountOf(parts.groom, options);
-    const HairRange range = partRange(count, options.part, options.partCount);
-    const std::uint32_t step = std::max(blockSize, 1u);
+    // Fewer roots are not worth going over the surface for.
+    constexpr double leastPerPiece = 4096.0;
+    const HairWish wish = wishFor(parts, options);
+    const RootSource source{*parts.groom.mesh, parts.sampler, lookups.density, wish.request};
+    const std::size_t step = std::max(blockSize, 1u);
+    // Roots are made for a piece of the surface, hair for at most `step` of them.
+    const double perPiece = std::max(static_cast<double>(step), leastPerPiece);
+    const auto pieces = static_cast<std::size_t>(expectedRoots(source, wish.range) / perPiece) + 1;
     Batch block;
-    for (std::uint64_t first = range.first; first < range.last; first += step) {
-        block.range = {static_cast<std::uint32_t>(first),
-                       static_cast<std::uint32_t>(std::min<std::uint64_t>(first + step, range.last))};
-        makeBatch(parts, lookups, count, block, progress);
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const std::vector<HairRoot> roots =
+            makeRoots(source, pieceOf(parts.sampler, wish.range, piece, pieces), progress);
+        for (std::size_t first = 0; first < roots.size(); first += step) {
+            const std::size_t last = std::min(first + step, roots.size());
+            block.roots.assign(roots.begin() + static_cast<std::ptrdiff_t>(first),
+                               roots.begin() + static_cast<std::ptrdiff_t>(last));
+            growBatch(parts, lookups, wish.lod, block, progress);
+            if (progress.cancelled()) return cancelledError();
+            if (block.strands->count() > 0 && !sink(*block.strands)) return cancelledError();
+        }
         if (progress.cancelled()) return cancelledError();
-        if (block.strands->count() > 0 && !sink(*block.strands)) return cancelledError();
-        progress.report(
-            static_cast<float>(block.range.last - range.first) / static_cast<float>(range.last - range.first),
-            "Growing hair");
+        progress.report(static_cast<float>(piece + 1) / static_cast<float>(pieces), "Growing hair");
     }
     return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hair of one range with everything that it was made of: what the generator's callers share inside.
+// Hair of some roots with everything that it was made of: what the generator's callers share inside.
 #pragma once
 
 #include "core/hair/evaluate.h"
@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace whorl {
@@ -15,16 +16,28 @@ namespace whorl {
 struct HairParts {
     Groom groom;
     std::optional<SkinGuard> guard;  ///< set when a group keeps outside
-    SubTriangleSampler sampler;
+    RootSampler sampler;
     GuideIndex index;
     GuideShapes shapes;
+    // The request for that number of hairs; see countHairs.
+    RootRequest counted{};
+    double countedFor = -1.0;
 };
 
 /// True when a group keeps its hair outside the skin.
 bool wantsSkin(const Groom& groom);
 
-/// `options.hairCount`, or that of the groom.
-std::uint32_t hairCountOf(const Groom& groom, const GenerateOptions& options);
+/// What is asked for, besides the groom.
+struct HairWish {
+    RootRequest request;
+    RootRange range;
+    float lod = 1.0f;
+    bool operator==(const HairWish&) const = default;
+};
+HairWish wishFor(const HairParts& parts, const GenerateOptions& options);
+
+/// Keeps the request for the number of hairs in `options`, which takes time, so that wishFor need not make it.
+void countHairs(HairParts& parts, const GenerateOptions& options);
 
 /// What parameters and maps say; made from the groom of the parts that it is used with.
 struct HairLookups {
@@ -34,7 +47,6 @@ struct HairLookups {
 };
 
 struct Batch {
-    HairRange range;
     std::vector<HairRoot> roots;
     Bindings bindings;
     std::vector<HairTraits> traits;
@@ -55,9 +67,12 @@ struct Batch {
 /// 0, 1, 2 ... one a strand: for evaluateHairs.
 std::vector<std::uint32_t> allOf(const Strands& strands);
 
-/// Everything of `batch.range` from nothing; `count` hairs in the whole groom. Unfinished when cancelled.
-void makeBatch(const HairParts& parts, const HairLookups& lookups, std::uint32_t count, Batch& batch,
-               Progress& progress);
+/// Traits of all roots at a level of detail (some left unset when cancelled).
+std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,
+                                  Progress& progress);
+
+/// All of the hair of `batch.roots`. Unfinished when cancelled.
+void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress);
 
 /// See Generator::stream.
 Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,

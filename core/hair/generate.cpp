@@ -12,7 +12,7 @@ namespace whorl {
 namespace {
 
 // Above this many hairs nothing is kept for the next call: it would cost more memory than the hair.
-constexpr std::uint32_t mostKept = 1u << 20;
+constexpr double mostKept = 1 << 20;
 
 Error tooLarge(std::uint64_t hairs) {
     return {std::to_string(hairs) +
@@ -32,7 +32,7 @@ struct Generator::State {
 
     // Hair kept by generate().
     bool batchValid = false;
-    std::uint32_t batchCount = 0;
+    HairWish batchWish;
     Batch batch;
     std::shared_ptr<Strands> spare;  // what was shared before `batch.strands`; used again when nobody holds it any more
 
@@ -48,7 +48,7 @@ struct Generator::State {
     void guardSkin();
 
     void ownStrands(bool keep);
-    void renewBatch(std::uint32_t count, HairRange range, Progress& progress);
+    void renewBatch(const HairLookups& lookups, const HairWish& wish, Progress& progress);
     std::vector<std::uint32_t> strandsOfChangedGuides() const;
 };
 
@@ -67,8 +67,8 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
         changedBlocks[b] = !next.guides.blockSameAs(b, groom.guides);
 
     if (densityChanged) {
-        Result<SubTriangleSampler> built =
-            SubTriangleSampler::build(*next.mesh, DensityLookup(next), SubTriangleSampler::Options{}, progress);
+        const RootSampler* earlier = groom.mesh.sameAs(next.mesh) ? &parts.sampler : nullptr;
+        Result<RootSampler> built = RootSampler::build(next, DensityLookup(next), progress, earlier);
         if (!built) {
             batchValid = false;
             return built.error();
@@ -79,6 +79,7 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     if (shapesRebuilt) parts.shapes = GuideShapes(next);
     for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
         if (changedBlocks[b]) parts.shapes.update(next, b);
+    if (densityChanged || *groom.counts != *next.counts) parts.countedFor = -1.0;
     parts.groom = next;
     guardSkin();
     valid = true;
@@ -134,24 +135,23 @@ void Generator::State::ownStrands(bool keep) {
 }
 
 // The kept batch brought up to date: only what the change touches is made again.
-void Generator::State::renewBatch(std::uint32_t count, HairRange range, Progress& progress) {
-    const bool rootsKept = batchValid && !densityChanged && batchCount == count && batch.range.first == range.first &&
-                           batch.range.last == range.last;
+void Generator::State::renewBatch(const HairLookups& lookups, const HairWish& wish, Progress& progress) {
+    const bool rootsKept = batchValid && !densityChanged && batchWish == wish;
     batchValid = false;
-    batchCount = count;
-    batch.range = range;
+    batchWish = wish;
+    const Groom& groom = parts.groom;
     if (!rootsKept) {
         ownStrands(false);
-        makeBatch(parts, HairLookups(parts.groom), count, batch, progress);
+        const RootSource source{*groom.mesh, parts.sampler, lookups.density, wish.request};
+        batch.roots = makeRoots(source, wish.range, progress);
+        growBatch(parts, lookups, wish.lod, batch, progress);
         batchValid = !progress.cancelled();
         return;
     }
-    const Groom& groom = parts.groom;
-    const TraitLookup lookup(groom);
     if (bindingsChanged) batch.bindings = bindHairs(groom, parts.index, batch.roots, progress);
-    if (shapeChanged || lookChanged) batch.traits = makeTraits(lookup, batch.roots, progress);
+    if (shapeChanged || lookChanged) batch.traits = traitsFor(lookups.traits, batch.roots, wish.lod, progress);
     if (progress.cancelled()) return;
-    const HairSources sources = batch.sourcesOf(parts, lookup);
+    const HairSources sources = batch.sourcesOf(parts, lookups.traits);
     const bool all = bindingsChanged || shapeChanged || shapesRebuilt;
     const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : strandsOfChangedGuides();
     if (all || lookChanged || !some.empty()) ownStrands(!all);
@@ -185,15 +185,15 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
                                                                  Progress& progress) {
     using Shared = std::shared_ptr<const Strands>;
     State& s = *m_state;
-    HairRange range;
+    double expected = 0.0;
     try {
-        // The seed moves every root.
-        if (s.parts.groom.counts->seed != groom.counts->seed) s.batchValid = false;
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
-        const std::uint32_t count = hairCountOf(groom, options);
-        range = partRange(count, options.part, options.partCount);
-        if (range.last - range.first <= mostKept) {
-            s.renewBatch(count, range, progress);
+        countHairs(s.parts, options);
+        const HairWish wish = wishFor(s.parts, options);
+        const HairLookups lookups(s.parts.groom);
+        expected = expectedRoots({*groom.mesh, s.parts.sampler, lookups.density, wish.request}, wish.range);
+        if (expected <= mostKept) {
+            s.renewBatch(lookups, wish, progress);
             if (progress.cancelled()) return cancelledError();
             progress.report(1.0f, "Growing hair");
             return Shared(s.batch.strands);
@@ -214,7 +214,7 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
     } catch (const std::bad_alloc&) {
         s.batchValid = false;
         s.valid = false;
-        return tooLarge(range.last - range.first);
+        return tooLarge(static_cast<std::uint64_t>(expected));
     }
 }
 
@@ -225,11 +225,19 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
         // The kept hair does not follow this groom.
         s.batchValid = false;
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
+        countHairs(s.parts, options);
         return streamBatches(s.parts, HairLookups(s.parts.groom), options, blockSize, sink, progress);
     } catch (const std::bad_alloc&) {
         s.valid = false;
         return tooLarge(blockSize);
     }
+}
+
+Result<RootRange> Generator::rangeOfPart(const Groom& groom, std::uint32_t part, std::uint32_t partCount,
+                                         Progress& progress) {
+    m_state->batchValid = false;
+    if (Result<void> ready = m_state->prepare(groom, progress); !ready) return ready.error();
+    return m_state->parts.sampler.part(part, partCount);
 }
 
 Result<std::uint64_t> hairDigest(const Groom& groom, std::uint32_t parts, std::optional<std::uint32_t> hairCount,

@@ -6,6 +6,7 @@
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
+#include "core/sampling/root_sampler.h"
 #include "core/surface/surface.h"
 
 #include <functional>
@@ -16,23 +17,18 @@ namespace whorl {
 
 struct GenerateOptions {
     std::optional<std::uint32_t> hairCount{};  ///< instead of counts.hairs
-    std::uint32_t part = 0;                    ///< 0 to partCount - 1
+    std::uint32_t part = 0;                    ///< 0 to partCount - 1; parts are compact pieces of the surface
     std::uint32_t partCount = 1;
+    /// Level of detail: this share of the hairs, 0 to 1, a subset of all, and as much wider as they are fewer.
+    float lod = 1.0f;
 };
 
-/// Hairs of `count` that belong to part `part` of `partCount`: ids [first, last). Parts are neighbours on the surface.
-struct HairRange {
-    std::uint32_t first = 0;
-    std::uint32_t last = 0;
-};
-HairRange partRange(std::uint32_t count, std::uint32_t part, std::uint32_t partCount);
-
-/// Turns grooms into hair and keeps what the next call can use again: sampler, roots, bindings of hairs to guides.
-/// Per hair (seed 000, section 4.2.2): root sample, cut, group, interpolation from the nearest guides of the group
-/// (KD-tree, Shepard weights), scale, frizz, kink, colour, opacity, width, cut, normals by double reflection.
-/// A hair whose cut is zero, or for which there are no guides, is left out; ids keep their gaps.
-/// The same groom, seed and options give the same bytes on any number of threads, any split and any SIMD level.
-/// One thread at a time; use one Generator a thread.
+/// Turns grooms into hair, neighbours after neighbours, and keeps what the next call can use again: sampler, roots,
+/// bindings of hairs to guides. Per hair (seed 000, section 4.2.2): root sample, cut, group, interpolation from the
+/// nearest guides of the group (KD-tree, Shepard weights), scale, frizz, kink, colour, opacity, width, cut, normals by
+/// double reflection. A hair whose cut is zero, or for which there are no guides, is left out; ids keep their gaps. The
+/// same groom, seed and options give the same bytes on any number of threads, any split and any SIMD level. One thread
+/// at a time; use one Generator a thread.
 class Generator {
 public:
     Generator();
@@ -49,10 +45,13 @@ public:
     Result<std::shared_ptr<const Strands>> generateShared(const Groom& groom, const GenerateOptions& options,
                                                           Progress& progress);
 
-    /// In blocks of at most `blockSize` hairs, in order of id, with constant memory: `sink` gets each block once, from
-    /// the calling thread, and returns false to stop (the call then gives cancelledError()).
+    /// In blocks of at most `blockSize` hairs, in the same order, with constant memory: `sink` gets each block once,
+    /// from the calling thread, and returns false to stop (the call then gives cancelledError()).
     Result<void> stream(const Groom& groom, const GenerateOptions& options, std::uint32_t blockSize,
                         const std::function<bool(const Strands&)>& sink, Progress& progress);
+
+    /// The piece of the surface that a part grows on. Fails only when cancelled.
+    Result<RootRange> rangeOfPart(const Groom& groom, std::uint32_t part, std::uint32_t partCount, Progress& progress);
 
     /// Uses (and shares) a surface that the caller has already.
     void setSurface(std::shared_ptr<const Surface> surface);

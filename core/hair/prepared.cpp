@@ -19,10 +19,10 @@ PreparedGroom::~PreparedGroom() = default;
 Result<std::shared_ptr<const PreparedGroom>> PreparedGroom::make(const Groom& groom, Progress& progress,
                                                                  std::shared_ptr<const DistanceField> skin) {
     try {
-        Result<SubTriangleSampler> sampler =
-            SubTriangleSampler::build(*groom.mesh, DensityLookup(groom), SubTriangleSampler::Options{}, progress);
+        Result<RootSampler> sampler = RootSampler::build(groom, DensityLookup(groom), progress);
         if (!sampler) return sampler.error();
         HairParts parts{groom, {}, std::move(*sampler), GuideIndex(groom), GuideShapes(groom)};
+        countHairs(parts, {});
         if (wantsSkin(groom)) {
             if (!skin) skin = std::make_shared<const DistanceField>(DistanceField::build(*groom.mesh));
             parts.guard.emplace(std::move(skin));

@@ -116,8 +116,7 @@ std::vector<glm::vec3> referenceNormals(std::span<const glm::vec3> points, const
 Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surface> surface,
                                   const GenerateOptions& options, Progress& progress) {
     const DensityLookup density(groom);
-    const Result<SubTriangleSampler> sampler =
-        SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
+    const Result<RootSampler> sampler = RootSampler::build(groom, density, progress);
     if (!sampler) return sampler.error();
     Strands strands;
     if (sampler->empty()) return strands;
@@ -128,14 +127,14 @@ Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surf
     const std::optional<SkinGuard> guard = outside ? std::optional<SkinGuard>(surface->sharedSkin()) : std::nullopt;
     const SkinGuard* skin = guard ? &*guard : nullptr;
 
-    const auto count = options.hairCount.value_or(static_cast<std::uint32_t>(groom.counts->hairs));
-    const HairRange range = partRange(count, options.part, options.partCount);
-    const RootSource source{*groom.mesh, *sampler, density, count, static_cast<std::uint32_t>(groom.counts->seed)};
-    for (std::uint32_t id = range.first; id < range.last; ++id) {
+    const float lod = std::clamp(options.lod, 0.0f, 1.0f);
+    const double hairs = options.hairCount ? static_cast<double>(*options.hairCount) : groom.counts->hairs;
+    const RootSource source{*groom.mesh, *sampler, density,
+                            requestFor(*groom.counts, *sampler, hairs, static_cast<double>(lod))};
+    for (const HairRoot& root : makeRoots(source, sampler->part(options.part, options.partCount), progress)) {
         if (progress.cancelled()) return cancelledError();
-        const HairRoot root = rootOf(source, id);
-        if (density.at(root.point.triangle, root.uv) <= 0.0f) continue;
-        const HairTraits traits = lookup.at(root);
+        HairTraits traits = lookup.at(root);
+        if (lod < 1.0f) widen(traits, lod);
         const int segments = (*groom.groups)[root.group].params.general.segments;
         if (cutEnd(traits.cut, segments).vertices == 0 || !(traits.scale > 0.0f)) continue;
         const std::vector<glm::vec3> curve = referenceCurve(groom, index, root, traits, lookup.kinkOffset(), skin);

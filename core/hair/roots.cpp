@@ -4,36 +4,73 @@
 #include "core/base/parallel.h"
 #include "core/surface/surface_point.h"
 
-namespace whorl {
+#include <algorithm>
 
-HairRoot rootOf(const RootSource& source, std::uint32_t id) {
+namespace whorl {
+namespace {
+
+constexpr double rootsPerPiece = 4096.0;
+
+HairRoot rootOf(const RootSource& source, std::uint32_t id, const SurfacePoint& point) {
     HairRoot root;
     root.id = id;
-    root.point = source.sampler.stratifiedRoot(id, source.count, source.seed);
-    root.position = positionAt(source.mesh, root.point);
-    root.normal = normalAt(source.mesh, root.point);
-    root.uv = uvAt(source.mesh, root.point);
+    root.point = point;
+    root.position = positionAt(source.mesh, point);
+    root.normal = normalAt(source.mesh, point);
+    root.uv = uvAt(source.mesh, point);
     root.group = static_cast<std::uint8_t>(source.density.groupAt(root.uv));
     return root;
 }
 
-std::vector<HairRoot> makeRoots(const RootSource& source, HairRange range, Progress& progress) {
+}  // namespace
+
+RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share) {
+    const auto seed = static_cast<std::uint32_t>(counts.seed);
+    const float weight = counts.densityTotal > 0.0f ? counts.densityTotal : sampler.weightFor(hairs, seed);
+    return {weight > 0.0f ? hairs * share / static_cast<double>(weight) : 0.0, seed};
+}
+
+double expectedRoots(const RootSource& source, RootRange range) {
+    const RootSampler& sampler = source.sampler;
+    return source.request.rate * sampler.weight() *
+           std::max(sampler.shareBefore(range.last) - sampler.shareBefore(range.first), 0.0);
+}
+
+RootRange pieceOf(const RootSampler& sampler, RootRange range, std::size_t index, std::size_t count) {
+    const double first = sampler.shareBefore(range.first), last = sampler.shareBefore(range.last);
+    const auto edge = [&](std::size_t i) {
+        if (i == 0) return range.first;
+        if (i >= count) return range.last;
+        const double share = first + (last - first) * static_cast<double>(i) / static_cast<double>(count);
+        return std::clamp(sampler.cut(share), range.first, range.last);
+    };
+    return {edge(index), edge(index + 1)};
+}
+
+std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progress& progress) {
     if (source.sampler.empty() || range.last <= range.first) return {};
-    constexpr std::size_t grain = 2048;
-    std::vector<HairRoot> roots(range.last - range.first);
-    std::vector<std::uint8_t> kept(roots.size(), 0);
-    parallelFor(roots.size(), grain, [&](std::size_t begin, std::size_t end) {
-        if (progress.cancelled()) return;
-        for (std::size_t i = begin; i < end; ++i) {
-            roots[i] = rootOf(source, range.first + static_cast<std::uint32_t>(i));
-            kept[i] = source.density.at(roots[i].point.triangle, roots[i].uv) > 0.0f;
+    const auto pieces = static_cast<std::size_t>(expectedRoots(source, range) / rootsPerPiece) + 1;
+    std::vector<std::vector<HairRoot>> made(pieces);
+    parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
+        RootList list;
+        for (std::size_t piece = begin; piece < end && !progress.cancelled(); ++piece) {
+            list.clear();
+            source.sampler.sample(source.request, pieceOf(source.sampler, range, piece, pieces), list);
+            std::vector<HairRoot>& roots = made[piece];
+            roots.reserve(list.count());
+            for (std::size_t i = 0; i < list.count(); ++i) {
+                const HairRoot root = rootOf(source, list.id(i), list.point(i));
+                if (source.density.at(root.point.triangle, root.uv) > 0.0f) roots.push_back(root);
+            }
         }
     });
+    if (pieces == 1) return std::move(made[0]);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < roots.size(); ++i)
-        if (kept[i]) roots[count++] = roots[i];
-    roots.resize(count);
-    return roots;
+    for (const std::vector<HairRoot>& roots : made) count += roots.size();
+    std::vector<HairRoot> all;
+    all.reserve(count);
+    for (const std::vector<HairRoot>& roots : made) all.insert(all.end(), roots.begin(), roots.end());
+    return all;
 }
 
 }  // namespace whorl

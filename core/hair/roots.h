@@ -2,9 +2,7 @@
 // The places that hairs grow from.
 #pragma once
 
-#include "core/hair/generate.h"
-#include "core/sampling/density.h"
-#include "core/sampling/sub_triangle_sampler.h"
+#include "core/sampling/root_sampler.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -16,7 +14,7 @@ namespace whorl {
 
 /// One root and the frame there.
 struct HairRoot {
-    std::uint32_t id = 0;  ///< index of the hair in the whole groom
+    std::uint32_t id = 0;  ///< of the hair in the whole groom: its number in the sampler's sequence
     SurfacePoint point{};
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f, 1.0f, 0.0f};
@@ -24,19 +22,25 @@ struct HairRoot {
     std::uint8_t group = 0;
 };
 
-/// What roots are drawn from: stratum i of `count` for hair i.
+/// What roots are drawn from.
 struct RootSource {
     const SurfaceMesh& mesh;
-    const SubTriangleSampler& sampler;
+    const RootSampler& sampler;
     const DensityLookup& density;
-    std::uint32_t count;
-    std::uint32_t seed;
+    RootRequest request;
 };
 
-/// The root of hair `id`.
-HairRoot rootOf(const RootSource& source, std::uint32_t id);
+/// The request that gives `share` of `hairs` hairs on the groom as `sampler` measured it, or on the groom as it was
+/// before paint (counts.density_total). Where that is not pinned the hairs are counted, so keep the answer.
+RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share = 1.0);
 
-/// Roots of the hairs in `range` in order; those on places of no density are left out. Fewer when cancelled.
-std::vector<HairRoot> makeRoots(const RootSource& source, HairRange range, Progress& progress);
+/// Number of roots to expect in a range, before those on places of no density are left out.
+double expectedRoots(const RootSource& source, RootRange range);
+
+/// Piece `index` of `count` of a range, with equal numbers of roots.
+RootRange pieceOf(const RootSampler& sampler, RootRange range, std::size_t index, std::size_t count);
+
+/// Roots in `range` in order of the sampler's curve; those on places of no density are left out. Fewer when cancelled.
+std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progress& progress);
 
 }  // namespace whorl

@@ -158,6 +158,11 @@ void TraitLookup::setFrizz(const Entry& entry, const HairRoot& root, HairTraits&
         traits.frizz[i] += own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
 }
 
+void widen(HairTraits& traits, float lod) {
+    traits.rootWidth /= lod;
+    traits.tipWidth /= lod;
+}
+
 CutEnd cutEnd(float cut, int segments) {
     if (!(cut > 0.0f) || segments < 1) return {};
     const float parameter = std::min(cut, 1.0f) * static_cast<float>(segments);

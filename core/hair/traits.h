@@ -57,6 +57,9 @@ private:
     std::vector<Entry> m_groups;
 };
 
+/// Makes up for hairs that a level of detail (above 0) leaves out: they cover as much together.
+void widen(HairTraits& traits, float lod);
+
 /// Where a hair of `segments` pieces ends when it is cut at `cut` (0 to 1 along its parameter).
 struct CutEnd {
     std::uint32_t vertices = 0;  ///< 0: no hair; otherwise at least 2

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* formatName = "whorl-package";
-constexpr std::uint64_t formatVersion = 1;
+// 1 had ranges of hairs instead of the surface.
+constexpr std::uint64_t formatVersion = 2;
 constexpr std::uint64_t maxManifest = std::uint64_t{16} << 20;
 constexpr std::uint64_t maxFile = std::uint64_t{16} << 30;
 constexpr std::uint32_t blockHairs = 1u << 14;
@@ -41,10 +42,11 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
     Hasher own;
     PackagePart part;
     std::map<std::uint32_t, std::uint32_t> triangles;
-    const HairRange range = partRange(static_cast<std::uint32_t>(groom.counts->hairs), number, count);
+    const auto range = generator.rangeOfPart(groom, number, count, share);
+    if (!range) return range.error();
     part.file = packagePartName(number);
-    part.firstHair = range.first;
-    part.lastHair = range.last;
+    part.range = *range;
+    part.asked = static_cast<std::uint64_t>(std::max(groom.counts->hairs, 0));
     const auto made = generator.stream(
         groom, {.part = number, .partCount = count}, blockHairs,
         [&](const Strands& block) {
@@ -54,10 +56,8 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
             part.hairs += block.count();
             part.vertices += block.vertexCount();
             for (const SurfacePoint& root : block.roots) ++triangles[root.triangle];
-            const float within =
-                block.count() > 0 && range.last > range.first
-                    ? static_cast<float>(block.ids.back() - range.first) / static_cast<float>(range.last - range.first)
-                    : 0.0f;
+            const double expected = static_cast<double>(std::max(groom.counts->hairs, 1)) / static_cast<double>(count);
+            const float within = std::min(static_cast<float>(static_cast<double>(part.hairs) / expected), 1.0f);
             progress.report(0.5f * (static_cast<float>(number) + within) / static_cast<float>(count), text);
             return !progress.cancelled();
         },
@@ -72,9 +72,15 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
 }
 
 json partToJson(const PackagePart& part) {
-    return {{"file", part.file},   {"first_hair", part.firstHair},    {"last_hair", part.lastHair},
-            {"hairs", part.hairs}, {"vertices", part.vertices},       {"bounds", boundsToJson(part.bounds)},
-            {"bytes", part.bytes}, {"digest", hexDigest(part.digest)}};
+    return {{"file", part.file},
+            {"first_unit", part.range.first},
+            {"last_unit", part.range.last},
+            {"asked", part.asked},
+            {"hairs", part.hairs},
+            {"vertices", part.vertices},
+            {"bounds", boundsToJson(part.bounds)},
+            {"bytes", part.bytes},
+            {"digest", hexDigest(part.digest)}};
 }
 
 /// All files, groom.json last.
@@ -143,6 +149,10 @@ Result<json> readManifest(const fs::path& folder) {
     if (fault.empty() && version > formatVersion)
         return Error{folder.string() + " was exported by a newer Whorl (format " + std::to_string(version) +
                      "; this one reads up to " + std::to_string(formatVersion) + "). Open it with that version."};
+    if (fault.empty() && version > 0 && version < formatVersion)
+        return Error{folder.string() +
+                     " was exported by an older Whorl, whose hair had other roots. Export the package "
+                     "again from its document."};
     const std::string checksum = reader.text("checksum");
     if (fault.empty() && (version == 0 || checksum != checksumOf(*manifest)))
         fault = name + " was changed or damaged: its checksum is wrong. Export the package again.";
@@ -195,14 +205,17 @@ Result<Package> readPackage(const fs::path& folder, Progress& progress) {
         if (!part) return part.error();
         part->file = file;
         part->bytes = stored->size();
-        const HairRange range = partRange(static_cast<std::uint32_t>(package.groom.counts->hairs), i, count);
         std::uint64_t hairs = 0;
         for (const std::uint32_t onTriangle : part->triangleHairs) hairs += onTriangle;
         const bool onMesh = std::all_of(part->triangles.begin(), part->triangles.end(), [&](std::uint32_t triangle) {
             return triangle < package.groom.mesh->triangleCount();
         });
-        if (part->bytes != size || partToJson(*part) != (*parts)[i] || part->firstHair != range.first ||
-            part->lastHair != range.last || part->hairs > range.last - range.first || hairs != part->hairs || !onMesh)
+        // Parts cover the surface one after another.
+        const std::uint32_t first = i > 0 ? package.parts.back().range.last : 0;
+        const bool covers = part->range.first == first && part->range.last >= first &&
+                            (i + 1 < count || part->range.last == SurfaceCurve::end) &&
+                            part->asked == static_cast<std::uint64_t>(std::max(package.groom.counts->hairs, 0));
+        if (part->bytes != size || partToJson(*part) != (*parts)[i] || !covers || hairs != part->hairs || !onMesh)
             return Error{(folder / file).string() + " does not fit " + packageManifest + ". Export the package again."};
         package.parts.push_back(std::move(*part));
     }

@@ -6,6 +6,7 @@
 #include "core/base/result.h"
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
+#include "core/sampling/root_sampler.h"
 #include "core/surface/surface.h"
 
 #include <filesystem>
@@ -18,7 +19,8 @@
 //                  with their boxes; a checksum covers it
 //   shared.bin     mesh, guides and maps, once for all parts: hairs near the border of a part follow guides and lie
 //                  over skin of its neighbours, so every call reads it
-//   part-NNNN.bin  what one call alone needs to know: range and number of its hairs, exact bounding box, digest of its
+//   part-NNNN.bin  what one call alone needs to know: its range of the surface, number of its hairs, exact bounding
+//   box, digest of its
 //                  hair, and the piece of the mesh that it grows on (triangles with the number of roots on each)
 // Nothing outside the folder is read, and links in it are refused.
 
@@ -26,11 +28,11 @@ namespace whorl {
 
 struct PackagePart {
     std::string file;
-    std::uint32_t firstHair = 0;
-    std::uint32_t lastHair = 0;
-    Bounds bounds;  ///< of the rendered hair; empty when nothing grows here
+    RootRange range{0, 0};
+    std::uint64_t asked = 0;  ///< hairs of the whole groom
+    Bounds bounds;            ///< of the rendered hair; empty when nothing grows here
     std::uint64_t bytes = 0;
-    std::uint64_t hairs = 0;                   ///< made of that range; the others were cut away
+    std::uint64_t hairs = 0;                   ///< that grow there and were not cut away
     std::uint64_t vertices = 0;                ///< of these hairs
     std::uint64_t digest = 0;                  ///< of the hair of this part alone
     std::vector<std::uint32_t> triangles;      ///< with roots of this part, ascending

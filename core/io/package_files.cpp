@@ -95,8 +95,9 @@ Result<OpenedDocument> groomFromShared(std::span<const std::uint8_t> bytes, cons
 
 Result<std::vector<std::uint8_t>> partBytes(const PackagePart& part, Progress& progress) {
     ContainerWriter writer;
-    const json manifest{{"first_hair", part.firstHair},
-                        {"last_hair", part.lastHair},
+    const json manifest{{"first_unit", part.range.first},
+                        {"last_unit", part.range.last},
+                        {"asked", part.asked},
                         {"hairs", part.hairs},
                         {"vertices", part.vertices},
                         {"bounds", boundsToJson(part.bounds)},
@@ -116,8 +117,9 @@ Result<PackagePart> partFromBytes(std::span<const std::uint8_t> bytes, const std
     std::string fault;
     ManifestReader reader(*manifest, "its table of contents", fault);
     PackagePart part;
-    part.firstHair = static_cast<std::uint32_t>(reader.number("first_hair", UINT32_MAX));
-    part.lastHair = static_cast<std::uint32_t>(reader.number("last_hair", UINT32_MAX));
+    part.range.first = static_cast<std::uint32_t>(reader.number("first_unit", UINT32_MAX));
+    part.range.last = static_cast<std::uint32_t>(reader.number("last_unit", UINT32_MAX));
+    part.asked = reader.number("asked", UINT32_MAX);
     part.hairs = reader.number("hairs", UINT32_MAX);
     part.vertices = reader.number("vertices", UINT64_MAX);
     part.digest = digestFromText(reader.text("digest"));

@@ -143,6 +143,10 @@ std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
     return bytes;
 }
 
+void Groom::countAnew() {
+    if (counts->densityTotal != 0.0f) counts.edit().densityTotal = 0.0f;
+}
+
 int Groom::groupIndex(std::string_view name) const {
     for (std::size_t i = 0; i < groups->size(); ++i) {
         if ((*groups)[i].name == name) return static_cast<int>(i);

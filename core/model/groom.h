@@ -41,6 +41,8 @@ struct Groom {
     /// Number of the group of that name, or -1.
     int groupIndex(std::string_view name) const;
     bool growsHair(std::uint32_t part) const;
+    /// The number of hairs stands for the density of today again (see CountParams::densityTotal).
+    void countAnew();
 };
 
 /// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides. Thicknesses and noise fit a head of a

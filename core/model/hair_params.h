@@ -22,6 +22,7 @@ struct CountParams {
     int parts = 1;
     int seed = 1;
     MapName groupMap{};
+    float densityTotal = 0.0f;
 
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
@@ -68,6 +69,14 @@ struct CountParams {
                         .label = "Group map",
                         .tip = "Map that picks the group of each root: its value times 255 is the group's number."},
               self.groupMap);
+        visit(
+            ParamInfo{.id = "density_total",
+                      .label = "Density as counted",
+                      .max = 1e9,
+                      .tip = "Average density of the surface that the number of hairs stands for. Painting sets it, so "
+                             "that paint adds and removes hair only under the brush. Zero: the average of today.",
+                      .kept = true},
+            self.densityTotal);
     }
     bool operator==(const CountParams&) const = default;
 };

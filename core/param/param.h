@@ -86,6 +86,7 @@ struct ParamInfo {
     std::string_view tip{};                       ///< one or two sentences for the artist
     std::span<const std::string_view> choices{};  ///< for Choice
     bool logarithmic = false;                     ///< the slider moves by ratio
+    bool kept = false;                            ///< Whorl sets it on its own; forms leave it out
 };
 
 /// The same for a block.

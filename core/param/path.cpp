@@ -152,13 +152,18 @@ Result<void> setGroomValue(Groom& groom, std::string_view path, const ParamValue
     });
     if (!set) return set;
     if (place->group < 0) {
-        if (!(counts == *groom.counts)) groom.counts = Cow<CountParams>(std::move(counts));
+        if (counts == *groom.counts) return {};
+        const bool recount = counts.hairs != groom.counts->hairs || counts.groupMap != groom.counts->groupMap;
+        groom.counts = Cow<CountParams>(std::move(counts));
+        if (recount) groom.countAnew();
         return {};
     }
     const auto index = static_cast<std::size_t>(place->group);
     if (hair == (*groom.groups)[index].params) return {};
     const bool resample = hair.general.segments != (*groom.groups)[index].params.general.segments;
+    const bool recount = hair.general.density != (*groom.groups)[index].params.general.density;
     groom.groups.edit()[index].params = std::move(hair);
+    if (recount) groom.countAnew();
     if (resample) resampleGuides(groom, place->group);
     return {};
 }

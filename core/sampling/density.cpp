@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace whorl {
 
@@ -54,25 +55,47 @@ bool DensityLookup::growsAt(const SurfaceMesh& mesh, const SurfacePoint& root) c
     return at(root.triangle, uvAt(mesh, root)) > 0.0f;
 }
 
-float DensityLookup::upperBound() const {
-    float bound = 0.0f;
-    for (const Entry& group : m_groups) {
-        float brightest = 1.0f;
-        if (group.map && group.map->format() == TexelFormat::F32) {
-            brightest = 0.0f;
-            for (int y = 0; y < group.map->height(); ++y) {
-                for (int x = 0; x < group.map->width(); ++x) {
-                    for (int channel = 0; channel < group.map->channels(); ++channel) {
-                        const float texel = group.map->texel(x, y, channel);
-                        if (texel > brightest && std::isfinite(texel)) brightest = texel;
-                    }
-                }
+namespace {
+
+// Largest finite texel of a map of floats, 1 at least; 1 for others.
+float brightest(const Map* map) {
+    float most = 1.0f;
+    if (!map || map->format() != TexelFormat::F32) return most;
+    for (int row = 0; row < map->tileRows(); ++row) {
+        for (int column = 0; column < map->tileColumns(); ++column) {
+            const std::vector<std::uint8_t>& bytes = map->tileBytes(column, row);
+            for (std::size_t i = 0; i + sizeof(float) <= bytes.size(); i += sizeof(float)) {
+                float texel = 0.0f;
+                std::memcpy(&texel, &bytes[i], sizeof(texel));
+                if (texel > most && std::isfinite(texel)) most = texel;
             }
         }
-        if (const float most = group.value * brightest; most > bound && std::isfinite(most)) bound = most;
     }
+    return most;
+}
+
+}  // namespace
+
+float DensityLookup::upperBound() const {
+    float bound = 0.0f;
+    for (const Entry& group : m_groups)
+        if (const float most = group.value * brightest(group.map); most > bound && std::isfinite(most)) bound = most;
     // Weights of bilinear sampling add up to 1 only up to rounding.
     return bound * 1.00001f;
+}
+
+float DensityLookup::scale() const {
+    float bound = 0.0f;
+    for (const Entry& group : m_groups) {
+        const float most = group.value * std::exp2(std::ceil(std::log2(brightest(group.map))));
+        if (most > bound && std::isfinite(most)) bound = most;
+    }
+    return bound;
+}
+
+std::optional<DensityLookup::Sole> DensityLookup::sole() const {
+    if (m_groupMap) return std::nullopt;
+    return Sole{m_groups[0].value, m_groups[0].map};
 }
 
 }  // namespace whorl

@@ -6,6 +6,10 @@
 
 #include <glm/vec2.hpp>
 
+#include <optional>
+#include <span>
+#include <vector>
+
 namespace whorl {
 
 /// Density asked at a UV of a part: that of the group which the group map picks there (value x map), zero on parts
@@ -20,11 +24,24 @@ public:
     int mapWidth() const { return m_width; }
     int mapHeight() const { return m_height; }
     bool growsOn(std::uint32_t triangle) const;
+    /// One a triangle, zero for those that grow no hair.
+    std::span<const std::uint8_t> grows() const { return m_growsByTriangle; }
     /// True when the density at the very place is above zero: a root near the edge of a painted area can lie in a
     /// sub-triangle with weight and yet on a texel without hair.
     bool growsAt(const SurfaceMesh& mesh, const SurfacePoint& root) const;
     /// No `at` is above this.
     float upperBound() const;
+    /// No `at` is above this either, up to rounding, and paint on maps of integers does not change it: the largest
+    /// value of a group, times the next power of two above all texels where a map holds floats.
+    float scale() const;
+
+    /// What decides alone where hair grows: the map of the only group in use, null when it has none. Nothing when there
+    /// is a group map.
+    struct Sole {
+        float value;
+        const Map* map;
+    };
+    std::optional<Sole> sole() const;
 
 private:
     struct Entry {

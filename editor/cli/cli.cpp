@@ -72,6 +72,7 @@ Result<void> addDensity(Groom& groom, const std::filesystem::path& image) {
     for (const std::string& repair : repairs) note(repair);
     groom.maps.set("density", std::move(*map));
     for (Group& group : groom.groups.edit()) group.params.general.density.map = "density";
+    groom.countAnew();
     return {};
 }
 

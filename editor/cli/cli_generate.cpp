@@ -39,6 +39,7 @@ Outcome generate(const Options& options) {
     const ThreadLimit limit(options.threads);
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
+    if (options.count) groom->countAnew();
     const auto written = writeHair(*groom, generateOptions, options.output, progress());
     if (!written) return badInput(written.error());
     if (*written == 0) note(options.output + ": no hair grows in this groom.");
@@ -49,6 +50,7 @@ Outcome hash(const Options& options) {
     const ThreadLimit limit(options.threads);
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
+    if (options.count) groom->countAnew();
     const auto digest = hairDigest(*groom, options.parts, options.count, progress());
     if (!digest) return badInput(digest.error());
     endProgress();

@@ -51,6 +51,7 @@ Outcome render(const Options& options) {
         generator.setSurface(surface);
         GenerateOptions generateOptions;
         generateOptions.hairCount = options.count;
+        if (options.count) groom->countAnew();
         auto made = generator.generate(*groom, generateOptions, progress());
         if (!made) return badInput(made.error());
         strands = std::make_shared<Strands>(std::move(*made));

@@ -223,6 +223,8 @@ Groom randomGroom(std::uint32_t seed) {
     CountParams& counts = groom.counts.edit();
     CountParams::each(counts, randomise);
     counts.hairs = 200 + dice.below(800);
+    // Around the average density, or not pinned.
+    counts.densityTotal = dice.below(2) == 0 ? 0.0f : 0.3f;
     counts.shownHairs = std::min(counts.hairs, 300);
     counts.parts = 1 + dice.below(8);
     if (groom.mesh->parts.size() > 1 && dice.chance(0.5f)) groom.partSettings.edit()[1].growsHair = false;

@@ -161,6 +161,7 @@ void MapsPanel::load(const QString& file, bool colour) {
     Groom after = m_context.document.committed();
     const std::string name = freeMapName(after, pathOf(file).stem().string());
     after.maps.set(name, *map);
+    after.countAnew();
     m_context.document.edit(std::move(after), tr("Load map %1").arg(QString::fromStdString(name)));
     m_list->setCurrentRow(m_list->count() - 1);
     QStringList details;

@@ -99,7 +99,7 @@ void ParamForm::refresh() {
     const std::vector<ParamRef> defaults = m_source.defaults();
     for (std::size_t i = 0; i < m_rows.size() && i < values.size(); ++i) {
         Row& row = m_rows[i];
-        const bool shown = m_only.isEmpty() || m_only.contains(row.id);
+        const bool shown = !values[i].info.kept && (m_only.isEmpty() || m_only.contains(row.id));
         row.editor->setVisible(shown);
         if (row.label) row.label->setVisible(shown);
         row.editor->show(values[i]);

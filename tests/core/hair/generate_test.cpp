@@ -11,7 +11,9 @@
 #include <glm/geometric.hpp>
 
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 using namespace whorl;
 
@@ -83,20 +85,51 @@ class GenerateTest : public QObject {
     Q_OBJECT
 private Q_SLOTS:
     void partsCoverEveryHairOnce() {
-        for (const std::uint32_t count : {0u, 1u, 10u, 4294967295u}) {
-            for (const std::uint32_t parts : {1u, 2u, 3u, 7u, 4096u}) {
-                std::uint32_t next = 0;
-                for (std::uint32_t part = 0; part < parts; ++part) {
-                    const HairRange range = partRange(count, part, parts);
-                    QCOMPARE(range.first, next);
-                    QVERIFY(range.last >= range.first);
-                    next = range.last;
-                }
-                QCOMPARE(next, count);
+        const Groom groom = busyGroom();
+        const Strands all = grown(groom, {3000u});
+        for (const std::uint32_t parts : {1u, 2u, 3u, 7u, 64u}) {
+            std::vector<std::uint32_t> ids;
+            for (std::uint32_t part = 0; part < parts; ++part) {
+                const Strands strands = grown(groom, {3000u, part, parts});
+                // Equal shares, but for hairs that are cut away and chance at the borders.
+                const double share = static_cast<double>(all.count()) / parts;
+                QVERIFY(std::abs(static_cast<double>(strands.count()) - share) < 0.2 * share + 8.0);
+                ids.insert(ids.end(), strands.ids.begin(), strands.ids.end());
             }
+            QCOMPARE(ids, all.ids);
         }
-        QCOMPARE(partRange(10, 5, 3).first, partRange(10, 5, 3).last);
-        QCOMPARE(partRange(10, 0, 0).first, partRange(10, 0, 0).last);
+        QCOMPARE(grown(groom, {3000u, 5, 3}).count(), std::size_t{0});
+        QCOMPARE(grown(groom, {3000u, 0, 0}).count(), std::size_t{0});
+        std::vector<std::uint32_t> sorted = all.ids;
+        std::sort(sorted.begin(), sorted.end());
+        QVERIFY(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+    }
+
+    void aLevelOfDetailIsASubsetThatCoversAsMuch() {
+        Groom groom = busyGroom();
+        for (Group& group : groom.groups.edit()) group.params.general.cut = {1.0f, ""};
+        const Strands all = grown(groom, {4000u});
+        std::map<std::uint32_t, std::size_t> places;
+        for (std::size_t i = 0; i < all.count(); ++i) places[all.ids[i]] = i;
+        std::vector<std::uint32_t> before = all.ids;
+        for (const float lod : {0.5f, 0.25f, 0.1f}) {
+            const Strands fewer = grown(groom, {4000u, 0, 1, lod});
+            QVERIFY(std::abs(static_cast<float>(fewer.count()) - 4000.0f * lod) < 10.0f);
+            for (std::size_t i = 0; i < fewer.count(); ++i) {
+                QVERIFY(std::find(before.begin(), before.end(), fewer.ids[i]) != before.end());
+                const std::size_t j = places.at(fewer.ids[i]);
+                QVERIFY(fewer.roots[i] == all.roots[j]);
+                const std::size_t v = fewer.firstVertex[i], w = all.firstVertex[j];
+                QCOMPARE(fewer.firstVertex[i + 1] - v, all.firstVertex[j + 1] - w);
+                QVERIFY(fewer.positions[v + 3] == all.positions[w + 3]);
+                QVERIFY(fewer.colours[v + 3] == all.colours[w + 3]);
+                QVERIFY(std::abs(fewer.widths[v] * lod - all.widths[w]) < 1e-6f * all.widths[w]);
+            }
+            // And so is that of fewer hairs.
+            QVERIFY(grown(groom, {static_cast<std::uint32_t>(4000.0f * lod)}).ids == fewer.ids);
+            before = fewer.ids;
+        }
+        QCOMPARE(grown(groom, {4000u, 0, 1, 0.0f}).count(), std::size_t{0});
     }
 
     void theDigestIsTheSameForAnyPartsThreadsAndLevel() {
@@ -151,7 +184,8 @@ private Q_SLOTS:
         for (std::size_t i = 0; i < strands.count(); ++i) {
             const glm::vec3 root = positionAt(*groom.mesh, strands.roots[i]);
             QVERIFY(glm::distance(strands.positions[strands.firstVertex[i]], root) < 1e-7f);
-            if (i > 0) QVERIFY(strands.ids[i] > strands.ids[i - 1]);
+            QVERIFY(strands.roots[i].u >= 0.0f && strands.roots[i].v >= 0.0f);
+            QVERIFY(strands.roots[i].u + strands.roots[i].v <= 1.0f);
         }
     }
 

@@ -78,9 +78,8 @@ Strands grownFrom(const Groom& groom, const std::vector<HairRoot>& roots) {
 std::vector<HairRoot> someRoots(const Groom& groom) {
     Progress progress;
     const DensityLookup density(groom);
-    const Result<SubTriangleSampler> sampler =
-        SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
-    return makeRoots({*groom.mesh, *sampler, density, 1500, 1}, {0, 1500}, progress);
+    const Result<RootSampler> sampler = RootSampler::build(groom, density, progress);
+    return makeRoots({*groom.mesh, *sampler, density, {1500.0, 1}}, {}, progress);
 }
 
 }  // namespace

@@ -105,8 +105,8 @@ private Q_SLOTS:
         for (std::uint32_t i = 0; i < 4; ++i) {
             const PackagePart& part = opened->parts[i];
             const auto hair = generator.generate(opened->groom, {.part = i, .partCount = 4}, progress);
-            QCOMPARE(part.firstHair, next);
-            next = part.lastHair;
+            QCOMPARE(part.range.first, next);
+            next = part.range.last;
             QCOMPARE(part.hairs, std::uint64_t{hair->count()});
             QCOMPARE(part.vertices, std::uint64_t{hair->vertexCount()});
             QCOMPARE(part.bytes, std::uint64_t{fs::file_size(package / part.file)});
@@ -118,7 +118,7 @@ private Q_SLOTS:
             for (const SurfacePoint& root : hair->roots)
                 QVERIFY(std::binary_search(part.triangles.begin(), part.triangles.end(), root.triangle));
         }
-        QCOMPARE(next, static_cast<std::uint32_t>(groom.counts->hairs));
+        QCOMPARE(next, SurfaceCurve::end);
     }
 
     void nothingGrows() {
@@ -288,14 +288,15 @@ private Q_SLOTS:
         }));
         const auto rewritten = [&](auto&& change) { return refused([&] { rewrite(bad, change); }); };
         using nlohmann::json;
-        QVERIFY(rewritten([](json& m) { m["version"] = 2; }));
+        QVERIFY(rewritten([](json& m) { m["version"] = 3; }));
+        QVERIFY(rewritten([](json& m) { m["version"] = 1; }));
         QVERIFY(rewritten([](json& m) { m["version"] = 0; }));
         QVERIFY(rewritten([](json& m) { m["format"] = "other"; }));
         QVERIFY(rewritten([](json& m) { m["parts"] = json::array(); }));
         QVERIFY(rewritten([](json& m) { m["parts"].erase(1); }));
         QVERIFY(rewritten([](json& m) { m["parts"][0]["file"] = "../good.groom/part-0000.bin"; }));
         QVERIFY(rewritten([](json& m) { m["shared"]["file"] = "/etc/passwd"; }));
-        QVERIFY(rewritten([](json& m) { m["parts"][1]["first_hair"] = 0; }));
+        QVERIFY(rewritten([](json& m) { m["parts"][1]["first_unit"] = 0; }));
         QVERIFY(rewritten([](json& m) { m["parts"][1]["bounds"] = nullptr; }));
         QVERIFY(rewritten([](json& m) { m["counts"]["hairs"] = 77; }));
         QVERIFY(rewritten([](json& m) { m.erase("groups"); }));

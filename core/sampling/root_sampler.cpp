@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sampling/root_sampler.h"
+
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/sampling/root_sweep.kernel.h"
+#include "core/sampling/texel_depth.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+namespace whorl {
+namespace {
+
+constexpr std::size_t trianglesPerBlock = 256;
+constexpr std::size_t trianglesPerSum = 64;
+// Candidates have numbers of 31 bits; no level is finer.
+constexpr double mostCandidates = 2147483648.0;
+constexpr unsigned leastLevel = 4;
+// More hairs than this are not counted to make their number right.
+constexpr double mostCounted = 1e6;
+
+float meanOf(const std::uint8_t* codes, std::size_t count) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += std::uint32_t{codes[i]} * codes[i];
+    return static_cast<float>(static_cast<double>(sum) / (65025.0 * static_cast<double>(count)));
+}
+
+}  // namespace
+
+CandidateKeys candidateKeys(std::uint32_t seed) {
+    constexpr std::uint32_t channel = 0x726f6f74;
+    CandidateKeys keys{};
+    for (std::uint64_t i = 0; i < 3; ++i) keys.add[i] = static_cast<std::uint32_t>(randomBits(seed, i, channel) >> 32);
+    keys.fine = static_cast<std::uint32_t>(randomBits(seed, 3, channel) >> 32);
+    return keys;
+}
+
+void RootList::reserve(std::size_t capacity) {
+    if (capacity <= m_capacity) return;
+    const auto grow = [&](auto& array) {
+        auto more = std::make_unique_for_overwrite<std::remove_reference_t<decltype(array[0])>[]>(capacity);
+        if (m_count > 0) std::memcpy(more.get(), array.get(), m_count * sizeof(array[0]));
+        array = std::move(more);
+    };
+    grow(m_ids);
+    grow(m_triangles);
+    grow(m_u);
+    grow(m_v);
+    m_capacity = capacity;
+}
+
+Result<RootSampler> RootSampler::build(const Groom& groom, const DensityLookup& density, Progress& progress,
+                                       const RootSampler* earlier) {
+    const SurfaceMesh& mesh = *groom.mesh;
+    RootSampler sampler;
+    const bool serves = earlier && earlier->m_curve->serves(mesh, density.grows());
+    sampler.m_curve = serves ? earlier->m_curve : std::make_shared<SurfaceCurve>(mesh, density.grows());
+    const SurfaceCurve& curve = *sampler.m_curve;
+    const std::size_t count = curve.count();
+    std::vector<std::uint8_t> depths(count);
+    parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            depths[i] = static_cast<std::uint8_t>(
+                texelDepth(mesh, curve.triangles()[i], density.mapWidth(), density.mapHeight(), maxDepth));
+    });
+    const int allowed = allowedDepth(depths, maxDepth, maxPieces);
+
+    const DensityCodes codes(groom, density, true);
+    std::vector<std::vector<std::uint8_t>> blocks((count + trianglesPerBlock - 1) / trianglesPerBlock);
+    sampler.m_depths.resize(count);
+    sampler.m_firstCode.resize(count);
+    std::atomic<std::size_t> done{0};
+    parallelFor(count, trianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+        if (progress.cancelled()) return;
+        std::vector<std::uint8_t>& block = blocks[begin / trianglesPerBlock];
+        for (std::size_t i = begin; i < end; ++i) {
+            sampler.m_firstCode[i] = static_cast<std::uint32_t>(block.size());
+            const int depth = codes.measure(curve.triangles()[i], std::min<int>(depths[i], allowed), block);
+            sampler.m_depths[i] = static_cast<std::uint8_t>(depth);
+        }
+        const std::size_t sum = done.fetch_add(end - begin, std::memory_order_relaxed) + (end - begin);
+        progress.report(static_cast<float>(sum) / static_cast<float>(count), "Measuring density");
+    });
+    if (progress.cancelled()) return cancelledError();
+
+    std::vector<std::size_t> firstOfBlock(blocks.size() + 1, 0);
+    for (std::size_t i = 0; i < blocks.size(); ++i) firstOfBlock[i + 1] = firstOfBlock[i] + blocks[i].size();
+    sampler.m_codes.resize(firstOfBlock.back());
+    sampler.m_most.resize(count);
+    sampler.m_means.resize(count);
+    parallelFor(count, trianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+        const std::size_t block = begin / trianglesPerBlock;
+        std::copy(blocks[block].begin(), blocks[block].end(),
+                  sampler.m_codes.begin() + static_cast<std::ptrdiff_t>(firstOfBlock[block]));
+        for (std::size_t i = begin; i < end; ++i) {
+            sampler.m_firstCode[i] += static_cast<std::uint32_t>(firstOfBlock[block]);
+            sampler.summarise(i);
+        }
+    });
+    sampler.m_scale = codes.scale();
+    sampler.sumUp();
+    return sampler;
+}
+
+// Largest code and mean of a triangle.
+void RootSampler::summarise(std::size_t place) {
+    const std::uint8_t* codes = &m_codes[m_firstCode[place]];
+    const std::size_t count = std::size_t{1} << (2 * m_depths[place]);
+    m_most[place] = *std::max_element(codes, codes + count);
+    m_means[place] = meanOf(codes, count);
+}
+
+double RootSampler::weightOf(std::size_t place) const {
+    return static_cast<double>(m_curve->width(place)) * static_cast<double>(m_means[place]);
+}
+
+void RootSampler::sumUp() {
+    m_before.clear();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < m_curve->count(); ++i) {
+        if (i % trianglesPerSum == 0) m_before.push_back(sum);
+        sum += weightOf(i);
+    }
+    m_before.push_back(sum);
+    m_weight = sum / static_cast<double>(SurfaceCurve::end) * m_scale;
+}
+
+std::size_t RootSampler::memoryBytes() const {
+    return m_curve->memoryBytes() + m_firstCode.capacity() * sizeof(std::uint32_t) + m_depths.capacity() +
+           m_most.capacity() + m_means.capacity() * sizeof(float) + m_codes.capacity() +
+           m_before.capacity() * sizeof(double);
+}
+
+double RootSampler::densityOf(std::uint8_t code) const {
+    return static_cast<double>(code * code) / 65025.0 * m_scale;
+}
+
+std::uint32_t RootSampler::limitOf(std::uint8_t code, double rate) const {
+    const double limit = std::min(rate * densityOf(code) + 0.5, mostCandidates);
+    return limit > 0.0 ? static_cast<std::uint32_t>(limit) : 0;
+}
+
+RootSampler::Candidate RootSampler::candidate(std::uint32_t seed, std::uint32_t index) const {
+    assert(!m_curve->empty());
+    const CandidateKeys keys = candidateKeys(seed);
+    Candidate found;
+    found.unit = unitOf(stratumOf(keys, index));
+    const std::size_t place = m_curve->placeAt(found.unit);
+    const auto zeros = static_cast<std::uint32_t>(std::countl_zero(m_curve->width(place)));
+    const std::uint32_t share = shareOfTriangle(found.unit - m_curve->begins()[place], finePlace(keys, index), zeros,
+                                                m_curve->reciprocals()[place]);
+    std::int32_t u = 0, v = 0;
+    placeInTriangle(share, u, v);
+    found.point = {m_curve->triangles()[place], static_cast<float>(u) * placeUnit, static_cast<float>(v) * placeUnit};
+    const unsigned depth = m_depths[place];
+    found.code = m_codes[m_firstCode[place] + (depth > 0 ? share >> (32u - 2u * depth) : 0u)];
+    return found;
+}
+
+void RootSampler::sample(const RootRequest& request, RootRange range, RootList& roots) const {
+    if (empty() || range.first >= range.last) return;
+    std::array<std::uint32_t, 256> limits;
+    std::array<std::uint8_t, 256> levels;
+    for (unsigned code = 0; code < 256; ++code) {
+        limits[code] = limitOf(static_cast<std::uint8_t>(code), request.rate);
+        // 2^level candidates are enough.
+        const auto level = static_cast<unsigned>(std::bit_width(limits[code] > 0 ? limits[code] - 1 : 0u));
+        levels[code] = static_cast<std::uint8_t>(std::clamp(level, leastLevel, 31u));
+    }
+    const SweepArrays arrays{candidateKeys(request.seed),
+                             limits.data(),
+                             levels.data(),
+                             m_curve->count(),
+                             m_curve->triangles().data(),
+                             m_curve->begins().data(),
+                             m_curve->reciprocals().data(),
+                             m_firstCode.data(),
+                             m_depths.data(),
+                             m_most.data(),
+                             m_codes.data()};
+    const auto sweep = WHORL_PICK(sweepRoots);
+    const double expected = request.rate * m_weight * (shareBefore(range.last) - shareBefore(range.first));
+    const double most = std::min(expected * 1.02 + 4096.0, mostCandidates);
+    roots.reserve(roots.m_count + static_cast<std::size_t>(most));
+    std::uint32_t from = range.first;
+    while (true) {
+        SweepRoots room{roots.m_ids.get(), roots.m_triangles.get(), roots.m_u.get(),
+                        roots.m_v.get(),   roots.m_capacity,        roots.m_count};
+        from = sweep(arrays, m_curve->placeAt(from), from, range.last, room);
+        roots.m_count = room.count;
+        if (from >= range.last) return;
+        roots.reserve(roots.m_capacity + roots.m_capacity / 2 + sweepStrata);
+    }
+}
+
+float RootSampler::weightFor(double hairs, std::uint32_t seed) const {
+    const auto average = static_cast<float>(m_weight);
+    if (empty() || !(hairs >= 1.0) || hairs > mostCounted) return average;
+    const auto wanted = static_cast<std::int64_t>(hairs + 0.5);
+    RootList list;
+    const auto excessAt = [&](float weight) {
+        list.clear();
+        sample({hairs / static_cast<double>(weight), seed}, {}, list);
+        return static_cast<std::int64_t>(list.count()) - wanted;
+    };
+    // Greater weights give fewer hairs. From the average in growing steps to both sides of the wanted number...
+    struct Tried {
+        float weight;
+        std::int64_t excess;
+    };
+    const Tried first{average, excessAt(average)};
+    if (first.excess == 0) return average;
+    const float grow = first.excess > 0 ? 1.0f : -1.0f;
+    float step = static_cast<float>(std::abs(first.excess) + 1) / static_cast<float>(wanted);
+    // Ever more candidates can not help where the surface has no room for so many.
+    const float most = wanted < 1000 ? 64.0f : 1.0f;
+    Tried last = first, next = first;
+    while ((next.excess > 0) == (first.excess > 0)) {
+        if (step > most) return average;
+        last = next;
+        next.weight = grow > 0.0f ? average * (1.0f + step) : average / (1.0f + step);
+        next.excess = excessAt(next.weight);
+        if (next.excess == 0) return next.weight;
+        step *= 2.0f;
+    }
+    // ...then between these. Where several come in at once, the smaller weight gives one too many.
+    Tried many = grow > 0.0f ? last : next, few = grow > 0.0f ? next : last;
+    for (bool halve = false;; halve = !halve) {
+        const float share =
+            halve ? 0.5f : static_cast<float>(many.excess) / static_cast<float>(many.excess - few.excess);
+        float middle = many.weight + (few.weight - many.weight) * share;
+        if (!(middle > many.weight && middle < few.weight)) middle = std::nextafter(many.weight, few.weight);
+        if (!(middle < few.weight)) return many.weight;
+        const Tried tried{middle, excessAt(middle)};
+        if (tried.excess == 0) return middle;
+        (tried.excess > 0 ? many : few) = tried;
+    }
+}
+
+double RootSampler::shareBefore(std::uint32_t unit) const {
+    if (empty() || unit == 0) return 0.0;
+    if (unit >= SurfaceCurve::end) return 1.0;
+    const std::size_t place = m_curve->placeAt(unit);
+    double before = m_before[place / trianglesPerSum];
+    for (std::size_t i = place / trianglesPerSum * trianglesPerSum; i < place; ++i) before += weightOf(i);
+    const double inside = static_cast<double>(unit - m_curve->begins()[place]);
+    return (before + inside * static_cast<double>(m_means[place])) / m_before.back();
+}
+
+std::uint32_t RootSampler::cut(double share) const {
+    if (empty() || !(share > 0.0)) return 0;
+    const double wanted = share * m_before.back();
+    if (wanted >= m_before.back()) return SurfaceCurve::end;
+    const auto sum = std::upper_bound(m_before.begin(), m_before.end() - 1, wanted) - 1;
+    double before = *sum;
+    std::size_t place = static_cast<std::size_t>(sum - m_before.begin()) * trianglesPerSum;
+    for (; place + 1 < m_curve->count() && before + weightOf(place) <= wanted; ++place) before += weightOf(place);
+    const double mean = static_cast<double>(m_means[place]);
+    const double inside = mean > 0.0 ? (wanted - before) / mean : 0.0;
+    return m_curve->begins()[place] +
+           static_cast<std::uint32_t>(std::min(inside, static_cast<double>(m_curve->width(place))));
+}
+
+RootRange RootSampler::part(std::uint32_t index, std::uint32_t count) const {
+    if (index >= count) return {SurfaceCurve::end, SurfaceCurve::end};
+    const auto edge = [&](std::uint32_t i) {
+        if (i == 0) return 0u;
+        return i == count ? SurfaceCurve::end : cut(static_cast<double>(i) / static_cast<double>(count));
+    };
+    return {edge(index), edge(index + 1)};
+}
+
+}  // namespace whorl
