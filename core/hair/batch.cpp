@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/batch.h"
 
+#include "core/hair/thin.h"
+
 #include <algorithm>
 #include <numeric>
 
 namespace whorl {
 
-std::vector<std::uint32_t> allOf(const Strands& strands) {
-    std::vector<std::uint32_t> which(strands.count());
+std::vector<std::uint32_t> allOf(const GrownHairs& grown) {
+    std::vector<std::uint32_t> which(grown.count());
     std::iota(which.begin(), which.end(), 0u);
     return which;
 }
@@ -53,10 +55,11 @@ std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const Hai
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress) {
     batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress);
     batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress);
+    batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
     if (progress.cancelled()) return;
-    const HairSources sources = batch.sourcesOf(parts, lookups.traits);
+    const HairSources sources = batch.sourcesOf(parts, lookups);
     batch.grown = layOut(sources, *batch.strands);
-    evaluateHairs(sources, batch.grown, allOf(*batch.strands), *batch.strands, progress);
+    evaluateHairs(sources, batch.grown, allOf(batch.grown), *batch.strands, progress);
 }
 
 Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
@@ -70,6 +73,7 @@ Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, c
     // Roots are made for a piece of the surface, hair for at most `step` of them.
     const double perPiece = std::max(static_cast<double>(step), leastPerPiece);
     const auto pieces = static_cast<std::size_t>(expectedRoots(source, wish.range) / perPiece) + 1;
+    const bool thin = skipsVertices(parts.groom);
     Batch block;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
         const std::vector<HairRoot> roots =
@@ -80,7 +84,8 @@ Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, c
                                roots.begin() + static_cast<std::ptrdiff_t>(last));
             growBatch(parts, lookups, wish.lod, block, progress);
             if (progress.cancelled()) return cancelledError();
-            if (block.strands->count() > 0 && !sink(*block.strands)) return cancelledError();
+            if (block.strands->count() > 0 && !sink(thin ? thinned(*block.strands, parts.groom) : *block.strands))
+                return cancelledError();
         }
         if (progress.cancelled()) return cancelledError();
         progress.report(static_cast<float>(piece + 1) / static_cast<float>(pieces), "Growing hair");

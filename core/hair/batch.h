@@ -19,6 +19,7 @@ struct HairParts {
     RootSampler sampler;
     GuideIndex index;
     GuideShapes shapes;
+    ClumpSet clumps;
     // The request for that number of hairs; see countHairs.
     RootRequest counted{};
     double countedFor = -1.0;
@@ -43,29 +44,34 @@ void countHairs(HairParts& parts, const GenerateOptions& options);
 struct HairLookups {
     DensityLookup density;
     TraitLookup traits;
-    explicit HairLookups(const Groom& groom) : density(groom), traits(groom) {}
+    ModifierChain chain;
+    explicit HairLookups(const Groom& groom, float time = 0.0f) : density(groom), traits(groom, time), chain(groom) {}
 };
 
 struct Batch {
     std::vector<HairRoot> roots;
     Bindings bindings;
     std::vector<HairTraits> traits;
-    std::vector<std::uint32_t> grown;
+    CentresOfHairs centres;
+    GrownHairs grown;
     std::shared_ptr<Strands> strands = std::make_shared<Strands>();
 
-    HairSources sourcesOf(const HairParts& parts, const TraitLookup& lookup) const {
+    HairSources sourcesOf(const HairParts& parts, const HairLookups& lookups) const {
         return {parts.groom,
                 roots,
                 bindings,
                 traits,
                 parts.shapes,
-                lookup.kinkOffset(),
-                parts.guard ? &*parts.guard : nullptr};
+                lookups.traits.kinkOffset(),
+                parts.guard ? &*parts.guard : nullptr,
+                lookups.chain,
+                parts.clumps,
+                centres};
     }
 };
 
-/// 0, 1, 2 ... one a strand: for evaluateHairs.
-std::vector<std::uint32_t> allOf(const Strands& strands);
+/// 0, 1, 2 ... one a hair: for evaluateHairs.
+std::vector<std::uint32_t> allOf(const GrownHairs& grown);
 
 /// Traits of all roots at a level of detail (some left unset when cancelled).
 std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,

@@ -16,8 +16,16 @@ bool sameBindings(const Groom& a, const Groom& b);
 bool sameSegments(const Groom& a, const Groom& b);
 
 /// True when traits made for one give hairs of the other their shape and length, given the same roots: same seed and
-/// whether to keep outside; the same cut, scales, displacement, frizz, kink, and their maps.
+/// whether to keep outside; the same cut, scales, displacement, frizz, kink, strands, modifiers that move vertices, and
+/// their maps.
 bool sameShapeParameters(const Groom& a, const Groom& b);
+
+/// True when centres of locks made for one serve the other, given the same sampled density and bindings: the same
+/// clumps, as far as their centres mind, and lengths of hair.
+bool sameClumps(const Groom& a, const Groom& b);
+
+/// True when frizz moves with time.
+bool isAnimated(const Groom& groom);
 
 /// True when traits made for one give hairs of the other their colours, opacities and widths, given the same roots.
 bool sameLookParameters(const Groom& a, const Groom& b);

@@ -4,6 +4,7 @@
 
 #include "core/hair/bindings.h"
 #include "core/hair/guide_shapes.h"
+#include "core/hair/modifiers/centres.h"
 #include "core/hair/outside.h"
 #include "core/hair/strands.h"
 #include "core/hair/traits.h"
@@ -23,21 +24,31 @@ struct HairSources {
     const GuideShapes& shapes;
     glm::vec3 kinkOffset;
     const SkinGuard* skin;  ///< null: nothing keeps outside
+    const ModifierChain& chain;
+    const ClumpSet& clumps;
+    const CentresOfHairs& centres;
+};
+
+/// The roots that grow hair, in order, and the strands of each: strands [firstStrand[i], firstStrand[i + 1]) of the
+/// i-th one, a single one or the members of a strand.
+struct GrownHairs {
+    std::vector<std::uint32_t> roots;
+    std::vector<std::uint32_t> firstStrand{0};
+    std::size_t count() const { return roots.size(); }
 };
 
 /// Traits of all roots (some left unset when cancelled).
 std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress);
 
-/// Makes room in `strands` for every root that grows a hair and fills in all that is one a hair. Returns the roots
-/// that grow one, in order.
-std::vector<std::uint32_t> layOut(const HairSources& sources, Strands& strands);
+/// Makes room in `strands` for every root that grows a hair and fills in all that is one a hair.
+GrownHairs layOut(const HairSources& sources, Strands& strands);
 
-/// Fills in the vertices of the strands `which` (places in `grown` and `strands`), from any number of threads.
-/// Unfinished when cancelled.
-void evaluateHairs(const HairSources& sources, std::span<const std::uint32_t> grown,
-                   std::span<const std::uint32_t> which, Strands& strands, Progress& progress);
+/// Fills in the vertices of the hairs `which` (places in `grown`), from any number of threads. Unfinished when
+/// cancelled.
+void evaluateHairs(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
+                   Strands& strands, Progress& progress);
 
 /// Gives all strands the widths and colours of their traits again; their shape stays.
-void renewLook(const HairSources& sources, std::span<const std::uint32_t> grown, Strands& strands);
+void renewLook(const HairSources& sources, const GrownHairs& grown, Strands& strands);
 
 }  // namespace whorl

@@ -3,6 +3,7 @@
 
 #include "core/hair/batch.h"
 #include "core/hair/changes.h"
+#include "core/hair/thin.h"
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +34,9 @@ struct Generator::State {
     // Hair kept by generate().
     bool batchValid = false;
     HairWish batchWish;
+    float batchTime = 0.0f;
     Batch batch;
+    std::shared_ptr<const Strands> thin;  // of `batch.strands` without skipped vertices, or null
     std::shared_ptr<Strands> spare;  // what was shared before `batch.strands`; used again when nobody holds it any more
 
     // What the newest groom changed, worked out by prepare().
@@ -42,14 +45,18 @@ struct Generator::State {
     bool shapeChanged = true;  // by parameters, of every hair
     bool lookChanged = true;
     bool shapesRebuilt = true;
+    bool clumpsRebuilt = true;
     std::vector<std::uint8_t> changedBlocks;
+    std::vector<std::vector<std::uint8_t>> movedCentres;  // one list a clump
 
     Result<void> prepare(const Groom& next, Progress& progress);
+    void prepareClumps(bool scatterChanged, Progress& progress);
+    std::vector<std::uint8_t> changedGuides() const;
     void guardSkin();
 
     void ownStrands(bool keep);
     void renewBatch(const HairLookups& lookups, const HairWish& wish, Progress& progress);
-    std::vector<std::uint32_t> strandsOfChangedGuides() const;
+    std::vector<std::uint32_t> hairsOfChangedGuides() const;
 };
 
 // Brings sampler, index and shapes up to `next`, and notes what changed. Cancelled: everything is made anew next time.
@@ -61,6 +68,8 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     bindingsChanged = !known || !sameBindings(groom, next);
     shapeChanged = !known || !sameShapeParameters(groom, next);
     lookChanged = !known || !sameLookParameters(groom, next);
+    const bool scatterChanged = densityChanged;
+    clumpsRebuilt = densityChanged || bindingsChanged || !sameClumps(groom, next) || !sameSegments(groom, next);
     shapesRebuilt = !known || bindingsChanged || !sameSegments(groom, next);
     changedBlocks.assign(next.guides.blockCount(), 1);
     for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
@@ -81,9 +90,21 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
         if (changedBlocks[b]) parts.shapes.update(next, b);
     if (densityChanged || *groom.counts != *next.counts) parts.countedFor = -1.0;
     parts.groom = next;
+    prepareClumps(scatterChanged, progress);
     guardSkin();
-    valid = true;
+    valid = !progress.cancelled();
     return {};
+}
+
+void Generator::State::prepareClumps(bool scatterChanged, Progress& progress) {
+    const ModifierChain chain(parts.groom);
+    movedCentres.clear();
+    if (clumpsRebuilt) {
+        parts.clumps.build(parts.groom, chain, parts.index, parts.shapes, scatterChanged, progress);
+    } else if (!chain.clumps().empty() && std::any_of(changedBlocks.begin(), changedBlocks.end(),
+                                                      [](std::uint8_t changed) { return changed != 0; })) {
+        parts.clumps.renew(parts.groom, chain, parts.shapes, changedGuides(), movedCentres);
+    }
 }
 
 void Generator::State::guardSkin() {
@@ -96,7 +117,7 @@ void Generator::State::guardSkin() {
     if (!parts.guard || &parts.guard->skin() != &surface->skin()) parts.guard.emplace(surface->sharedSkin());
 }
 
-std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
+std::vector<std::uint8_t> Generator::State::changedGuides() const {
     const Groom& groom = parts.groom;
     std::vector<std::uint8_t> changed(groom.guides.count(), 0);
     for (std::size_t b = 0; b < changedBlocks.size(); ++b) {
@@ -104,13 +125,24 @@ std::vector<std::uint32_t> Generator::State::strandsOfChangedGuides() const {
         std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(groom.guides.firstOfBlock(b)),
                     groom.guides.block(b).count(), std::uint8_t{1});
     }
+    return changed;
+}
+
+// Those that a changed guide shapes, or the middle of whose lock has moved.
+std::vector<std::uint32_t> Generator::State::hairsOfChangedGuides() const {
+    const std::vector<std::uint8_t> changed = changedGuides();
     std::vector<std::uint32_t> which;
     const Bindings& bindings = batch.bindings;
-    for (std::uint32_t i = 0; i < batch.grown.size(); ++i) {
-        const std::size_t hair = batch.grown[i];
+    for (std::uint32_t i = 0; i < batch.grown.count(); ++i) {
+        const std::size_t hair = batch.grown.roots[i];
         const std::uint32_t* guides = &bindings.guides[hair * bindings.perHair];
-        if (std::any_of(guides, guides + bindings.counts[hair], [&](std::uint32_t g) { return changed[g] != 0; }))
-            which.push_back(i);
+        bool touched =
+            std::any_of(guides, guides + bindings.counts[hair], [&](std::uint32_t g) { return changed[g] != 0; });
+        for (std::size_t c = 0; !touched && c < movedCentres.size(); ++c) {
+            const std::uint32_t centre = batch.centres[c][hair];
+            touched = centre != ClumpCentres::none && movedCentres[c][centre] != 0;
+        }
+        if (touched) which.push_back(i);
     }
     return which;
 }
@@ -141,6 +173,7 @@ void Generator::State::renewBatch(const HairLookups& lookups, const HairWish& wi
     batchWish = wish;
     const Groom& groom = parts.groom;
     if (!rootsKept) {
+        thin.reset();
         ownStrands(false);
         const RootSource source{*groom.mesh, parts.sampler, lookups.density, wish.request};
         batch.roots = makeRoots(source, wish.range, progress);
@@ -150,15 +183,19 @@ void Generator::State::renewBatch(const HairLookups& lookups, const HairWish& wi
     }
     if (bindingsChanged) batch.bindings = bindHairs(groom, parts.index, batch.roots, progress);
     if (shapeChanged || lookChanged) batch.traits = traitsFor(lookups.traits, batch.roots, wish.lod, progress);
+    if (clumpsRebuilt) batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
     if (progress.cancelled()) return;
-    const HairSources sources = batch.sourcesOf(parts, lookups.traits);
-    const bool all = bindingsChanged || shapeChanged || shapesRebuilt;
-    const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : strandsOfChangedGuides();
-    if (all || lookChanged || !some.empty()) ownStrands(!all);
+    const HairSources sources = batch.sourcesOf(parts, lookups);
+    const bool all = bindingsChanged || shapeChanged || shapesRebuilt || clumpsRebuilt;
+    const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : hairsOfChangedGuides();
+    if (all || lookChanged || !some.empty()) {
+        thin.reset();
+        ownStrands(!all);
+    }
     Strands& strands = *batch.strands;
     if (all) batch.grown = layOut(sources, strands);
     if (!all && lookChanged) renewLook(sources, batch.grown, strands);
-    evaluateHairs(sources, batch.grown, all ? allOf(strands) : some, strands, progress);
+    evaluateHairs(sources, batch.grown, all ? allOf(batch.grown) : some, strands, progress);
     batchValid = !progress.cancelled();
 }
 
@@ -188,19 +225,24 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
     double expected = 0.0;
     try {
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
+        if (s.batchTime != options.time && isAnimated(groom)) s.shapeChanged = true;
+        s.batchTime = options.time;
         countHairs(s.parts, options);
         const HairWish wish = wishFor(s.parts, options);
-        const HairLookups lookups(s.parts.groom);
+        const HairLookups lookups(s.parts.groom, options.time);
         expected = expectedRoots({*groom.mesh, s.parts.sampler, lookups.density, wish.request}, wish.range);
         if (expected <= mostKept) {
             s.renewBatch(lookups, wish, progress);
             if (progress.cancelled()) return cancelledError();
             progress.report(1.0f, "Growing hair");
-            return Shared(s.batch.strands);
+            if (!skipsVertices(groom)) return Shared(s.batch.strands);
+            if (!s.thin) s.thin = std::make_shared<const Strands>(thinned(*s.batch.strands, groom));
+            return s.thin;
         }
         s.batchValid = false;
         s.batch = Batch{};
         s.spare.reset();
+        s.thin.reset();
         auto all = std::make_shared<Strands>();
         Result<void> streamed = stream(
             groom, options, 1u << 16,
@@ -226,7 +268,7 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
         s.batchValid = false;
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
         countHairs(s.parts, options);
-        return streamBatches(s.parts, HairLookups(s.parts.groom), options, blockSize, sink, progress);
+        return streamBatches(s.parts, HairLookups(s.parts.groom, options.time), options, blockSize, sink, progress);
     } catch (const std::bad_alloc&) {
         s.valid = false;
         return tooLarge(blockSize);

@@ -21,14 +21,15 @@ struct GenerateOptions {
     std::uint32_t partCount = 1;
     /// Level of detail: this share of the hairs, 0 to 1, a subset of all, and as much wider as they are fewer.
     float lod = 1.0f;
+    float time = 0.0f;  ///< seconds, for animated frizz
 };
 
 /// Turns grooms into hair, neighbours after neighbours, and keeps what the next call can use again: sampler, roots,
 /// bindings of hairs to guides. Per hair (seed 000, section 4.2.2): root sample, cut, group, interpolation from the
-/// nearest guides of the group (KD-tree, Shepard weights), scale, frizz, kink, colour, opacity, width, cut, normals by
-/// double reflection. A hair whose cut is zero, or for which there are no guides, is left out; ids keep their gaps. The
-/// same groom, seed and options give the same bytes on any number of threads, any split and any SIMD level. One thread
-/// at a time; use one Generator a thread.
+/// nearest guides of the group (KD-tree, Shepard weights), scale, frizz, kink, modifiers in the group's order, keeping
+/// outside, colour, opacity, width, strands, cut, normals by double reflection, skipped vertices. A hair whose cut is
+/// zero, or for which there are no guides, is left out; ids keep their gaps. The same groom, seed and options give the
+/// same bytes on any number of threads, any split and any SIMD level. One thread at a time; use one Generator a thread.
 class Generator {
 public:
     Generator();

@@ -89,6 +89,14 @@ GuideIndex::GuideIndex(const Groom& groom) {
             tree->tree = std::make_unique<KdTree>(3, tree->cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
 }
 
+GuideIndex::GuideIndex(std::vector<GuideRoot> roots, const GuideIndex&) {
+    m_trees.push_back(std::make_unique<Tree>());
+    Tree& tree = *m_trees.back();
+    tree.cloud.roots = std::move(roots);
+    if (!tree.cloud.roots.empty())
+        tree.tree = std::make_unique<KdTree>(3, tree.cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
+}
+
 std::span<const GuideRoot> GuideIndex::rootsOf(std::size_t group) const {
     if (group >= m_trees.size()) return {};
     return m_trees[group]->cloud.roots;

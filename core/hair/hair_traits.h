@@ -15,6 +15,10 @@ struct HairTraits {
     float kinkRoot, kinkTip;
     float kinkFrequency[3];
     float rootColour[4], tipColour[4];
+    // Strands. Set when the group has hairs a strand.
+    float splay[3];  ///< at the root, half way, at the tip
+    float twistTurns;
+    float memberOffset, memberAspect, memberRandomise;
 };
 
 }  // namespace whorl

@@ -2,6 +2,7 @@
 #include "core/hair/prepared.h"
 
 #include "core/hair/batch.h"
+#include "core/hair/changes.h"
 
 #include <new>
 
@@ -21,7 +22,8 @@ Result<std::shared_ptr<const PreparedGroom>> PreparedGroom::make(const Groom& gr
     try {
         Result<RootSampler> sampler = RootSampler::build(groom, DensityLookup(groom), progress);
         if (!sampler) return sampler.error();
-        HairParts parts{groom, {}, std::move(*sampler), GuideIndex(groom), GuideShapes(groom)};
+        HairParts parts{groom, {}, std::move(*sampler), GuideIndex(groom), GuideShapes(groom), {}};
+        parts.clumps.build(groom, ModifierChain(groom), parts.index, parts.shapes, true, progress);
         countHairs(parts, {});
         if (wantsSkin(groom)) {
             if (!skin) skin = std::make_shared<const DistanceField>(DistanceField::build(*groom.mesh));
@@ -41,7 +43,12 @@ const Groom& PreparedGroom::groom() const {
 Result<void> PreparedGroom::stream(const GenerateOptions& options, std::uint32_t blockSize,
                                    const std::function<bool(const Strands&)>& sink, Progress& progress) const {
     try {
-        return streamBatches(m_state->parts, m_state->lookups, options, blockSize, sink, progress);
+        const HairParts& parts = m_state->parts;
+        if (options.time != 0.0f && isAnimated(parts.groom)) {
+            const HairLookups then(parts.groom, options.time);
+            return streamBatches(parts, then, options, blockSize, sink, progress);
+        }
+        return streamBatches(parts, m_state->lookups, options, blockSize, sink, progress);
     } catch (const std::bad_alloc&) {
         return Error{"A block of " + std::to_string(blockSize) + " hairs needs more memory than there is."};
     }

@@ -11,6 +11,10 @@ namespace whorl {
 Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surface> surface,
                                   const GenerateOptions& options, Progress& progress);
 
+/// The part of `r` across the unit vector `tangent`, unit length; across an axis where less than `least` of its square
+/// is left.
+glm::vec3 acrossTangent(const glm::vec3& r, const glm::vec3& tangent, float least);
+
 /// Normals of a strand by double reflection (Wang et al. 2008, "Computation of Rotation Minimizing Frames"), one a
 /// vertex. The first is the part of the skin's normal across the hair, or an axis where the hair stands upright.
 std::vector<glm::vec3> referenceNormals(std::span<const glm::vec3> points, const glm::vec3& surfaceNormal);

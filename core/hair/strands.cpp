@@ -22,8 +22,8 @@ void appendTo(std::vector<T>& values, const std::vector<T>& more) {
 }  // namespace
 
 std::size_t Strands::bytes() const {
-    return bytesOf(firstVertex) + bytesOf(ids) + bytesOf(roots) + bytesOf(rootUvs) + bytesOf(groups) +
-           bytesOf(positions) + bytesOf(normals) + bytesOf(widths) + bytesOf(colours);
+    return bytesOf(firstVertex) + bytesOf(ids) + bytesOf(members) + bytesOf(roots) + bytesOf(rootUvs) +
+           bytesOf(groups) + bytesOf(positions) + bytesOf(normals) + bytesOf(widths) + bytesOf(colours);
 }
 
 void Strands::append(const Strands& more) {
@@ -36,6 +36,7 @@ void Strands::append(const Strands& more) {
     firstVertex.reserve(firstVertex.size() + more.count());
     for (std::size_t i = 1; i < more.firstVertex.size(); ++i) firstVertex.push_back(base + more.firstVertex[i]);
     appendTo(ids, more.ids);
+    appendTo(members, more.members);
     appendTo(roots, more.roots);
     appendTo(rootUvs, more.rootUvs);
     appendTo(groups, more.groups);
@@ -48,6 +49,7 @@ void Strands::append(const Strands& more) {
 void Strands::clear() {
     firstVertex.assign(1, 0);
     ids.clear();
+    members.clear();
     roots.clear();
     rootUvs.clear();
     groups.clear();
@@ -79,6 +81,7 @@ void Strands::addTo(Hasher& hasher) const {
         const std::uint32_t vertices = firstVertex[i + 1] - firstVertex[i];
         const std::uint32_t group = groups[i];
         hasher.add(&ids[i], sizeof ids[i]);
+        if (i < members.size() && members[i] > 0) hasher.add(&members[i], sizeof members[i]);
         hasher.add(&roots[i], sizeof roots[i]);
         hasher.add(&rootUvs[i], sizeof rootUvs[i]);
         hasher.add(&group, sizeof group);

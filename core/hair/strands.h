@@ -20,7 +20,8 @@ struct Strands {
     std::vector<std::uint32_t> firstVertex{0};  ///< n+1 entries; hair i has vertices [firstVertex[i], firstVertex[i+1])
 
     // One a hair.
-    std::vector<std::uint32_t> ids;  ///< index of the hair in the whole groom, however it was split
+    std::vector<std::uint32_t> ids;     ///< index of the hair in the whole groom, however it was split
+    std::vector<std::uint8_t> members;  ///< number of the hair in its strand: hairs of one strand share their id
     std::vector<SurfacePoint> roots;
     std::vector<glm::vec2> rootUvs;
     std::vector<std::uint8_t> groups;

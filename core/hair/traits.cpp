@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,8 +66,9 @@ glm::vec3 TraitLookup::Tint::at(glm::vec2 uv) const {
     return limited;
 }
 
-TraitLookup::TraitLookup(const Groom& groom)
+TraitLookup::TraitLookup(const Groom& groom, float time)
     : m_seed(static_cast<std::uint32_t>(groom.counts->seed)),
+      m_time(time),
       m_frizzOffset(noiseOffset(m_seed, 0)),
       m_kinkOffset(noiseOffset(m_seed, 1)) {
     const auto map = [&](const std::string& name) -> const Map* {
@@ -100,6 +102,18 @@ TraitLookup::TraitLookup(const Groom& groom)
         e.kinkRoot = number(p.kink.root, 1.0f);
         e.kinkTip = number(p.kink.tip, 1.0f);
         e.kinkFrequency = vector(p.kink.frequency);
+        e.animation = number(p.frizz.animation, 10.0f);
+        e.speed = number(p.frizz.speed, 1000.0f);
+        const float reach = glm::length(p.frizz.direction.value);
+        if (reach > 1e-6f) e.direction = p.frizz.direction.value / reach;
+        e.strands = p.strands.hairs > 0;
+        e.splay[0] = number(p.strands.rootSplay, 1.0f);
+        e.splay[1] = number(p.strands.centreSplay, 1.0f);
+        e.splay[2] = number(p.strands.tipSplay, 1.0f);
+        e.twist = number(p.strands.twist, -125.66371f);
+        e.offset = number(p.strands.offset, -1.0f);
+        e.aspect = number(p.strands.aspect, 100.0f);
+        e.randomise = number(p.strands.randomise, 1.0f);
         m_groups.push_back(e);
     }
 }
@@ -120,7 +134,24 @@ HairTraits TraitLookup::at(const HairRoot& root) const {
         const glm::vec3 frequency = e.kinkFrequency.at(root.uv);
         for (int axis = 0; axis < 3; ++axis) t.kinkFrequency[axis] = frequency[axis];
     }
+    if (e.strands) setStrand(e, root, t);
     return t;
+}
+
+HairTraits TraitLookup::lockAt(const HairRoot& root) const {
+    const Entry& e = m_groups[root.group];
+    HairTraits t{};
+    t.scale = e.scale.at(root.uv);
+    t.displacement = e.displacement.at(root.uv);
+    return t;
+}
+
+void TraitLookup::setStrand(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
+    for (int i = 0; i < 3; ++i) traits.splay[i] = entry.splay[i].at(root.uv);
+    traits.twistTurns = entry.twist.at(root.uv) * 0.15915494f;
+    traits.memberOffset = entry.offset.at(root.uv);
+    traits.memberAspect = entry.aspect.at(root.uv);
+    traits.memberRandomise = entry.randomise.at(root.uv);
 }
 
 void TraitLookup::setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
@@ -152,10 +183,31 @@ void TraitLookup::setFrizz(const Entry& entry, const HairRoot& root, HairTraits&
     // at random for each hair, and a poorly spread one; the hair's own random vector takes over.
     const float highest = std::max({frequency.x, frequency.y, frequency.z});
     const float own = smoothStep((highest - 500.0f) / 1500.0f);
-    if (own <= 0.0f) return;
-    const HairChannel channels[3] = {HairChannel::FrizzX, HairChannel::FrizzY, HairChannel::FrizzZ};
-    for (int i = 0; i < 3; ++i)
-        traits.frizz[i] += own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
+    if (own > 0.0f) {
+        const HairChannel channels[3] = {HairChannel::FrizzX, HairChannel::FrizzY, HairChannel::FrizzZ};
+        for (int i = 0; i < 3; ++i)
+            traits.frizz[i] += own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
+    }
+    if (m_time != 0.0f) animateFrizz(entry, root, place, own, traits);
+}
+
+// Adds what the noise has changed by since time 0, as seen by a place that moves through it.
+void TraitLookup::animateFrizz(const Entry& entry, const HairRoot& root, const glm::vec3& place, float own,
+                               HairTraits& traits) const {
+    const float amount = entry.animation.at(root.uv);
+    const glm::vec3 way = entry.direction * (entry.speed.at(root.uv) * m_time);
+    if (!(amount > 0.0f) || !std::isfinite(way.x + way.y + way.z)) return;
+    glm::vec3 from = place;
+    // Where each hair's frizz is its own, so is the noise that it passes through.
+    for (int axis = 0; own > 0.0f && axis < 3; ++axis)
+        from[axis] +=
+            own * 256.0f *
+            random(m_seed, std::uint64_t{root.id} * 3 + static_cast<std::uint64_t>(axis), HairChannel::FrizzPlace);
+    const glm::vec3 to = from + way;
+    float before[3], after[3];
+    perlinVector(from.x, from.y, from.z, before);
+    perlinVector(to.x, to.y, to.z, after);
+    for (int i = 0; i < 3; ++i) traits.frizz[i] += amount * (after[i] - before[i]);
 }
 
 void widen(HairTraits& traits, float lod) {

@@ -11,15 +11,32 @@
 namespace whorl {
 
 /// Channels of randomBits that generation uses for a hair besides its root.
-enum class HairChannel : std::uint32_t { Scale = 64, Hue, Value, Mutant, FrizzX, FrizzY, FrizzZ, NoiseOffset };
+enum class HairChannel : std::uint32_t {
+    Scale = 64,
+    Hue,
+    Value,
+    Mutant,
+    FrizzX,
+    FrizzY,
+    FrizzZ,
+    NoiseOffset,
+    MemberRadius,
+    MemberTurn,
+    MemberLift,
+    StrandTurn,
+    FrizzPlace
+};
 
 /// Finds the maps of all parameters once, then answers for any root. Refers to the groom, which must outlive it.
 class TraitLookup {
 public:
-    explicit TraitLookup(const Groom& groom);
+    /// `time`: seconds, for what is animated.
+    explicit TraitLookup(const Groom& groom, float time = 0.0f);
 
     /// Every number is finite and inside its parameter's range, whatever the maps hold.
     HairTraits at(const HairRoot& root) const;
+    /// Those of the middle of a lock: scale and displacement without anything random, nothing else.
+    HairTraits lockAt(const HairRoot& root) const;
     /// Where kink noise starts: depends on the seed only.
     glm::vec3 kinkOffset() const { return m_kinkOffset; }
 
@@ -47,11 +64,19 @@ private:
         Number rootOpacity, tipOpacity, hueVariation, valueVariation, mutants;
         Number frizzRoot, frizzTip, kinkRoot, kinkTip;
         Vector frizzFrequency, kinkFrequency;
+        Number animation, speed;
+        glm::vec3 direction{0.0f};  ///< unit length or zero
+        bool strands = false;
+        Number splay[3], twist, offset, aspect, randomise;
     };
     void setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
     void setFrizz(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
+    void animateFrizz(const Entry& entry, const HairRoot& root, const glm::vec3& place, float own,
+                      HairTraits& traits) const;
+    void setStrand(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
 
     std::uint32_t m_seed;
+    float m_time;
     glm::vec3 m_frizzOffset;
     glm::vec3 m_kinkOffset;
     std::vector<Entry> m_groups;

@@ -9,15 +9,6 @@ namespace whorl {
 /// Turns pieces towards a direction, more and more to the tip. Lengths stay.
 struct BendParams {
     static constexpr BlockInfo info{"bend", "Gravity", "Lets hair hang, or blows it to one side."};
-    enum Row : std::size_t {
-        Direction = 2,  // x, y, z
-        Strength = Direction + 3,
-        Stiffness,
-        ByThickness,
-        ByLength,
-        ReferenceLength,
-        rowCount
-    };
 
     Vector direction{{0.0f, -1.0f, 0.0f}};
     Driven strength{0.8f};

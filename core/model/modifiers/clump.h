@@ -13,21 +13,6 @@ inline constexpr std::array<std::string_view, 2> clumpCentreNames{"Scattered", "
 /// Hairs go to the curve of the nearest centre: one of a scattered set, or a guide.
 struct ClumpParams {
     static constexpr BlockInfo info{"clump", "Clump", "Gathers hairs into locks."};
-    /// Places of the parameters among the modifier's numbers (see core/hair/modifiers/chain.h), in declared order.
-    enum Row : std::size_t {
-        Centres = 2,
-        Count,
-        Density,
-        Tightness,
-        RootTightness,
-        Profile,
-        Flyaways,
-        NoiseAmplitude,
-        NoiseFrequency,
-        KeepLength,
-        Seed,
-        rowCount
-    };
 
     Choice centres{};
     int count = 300;

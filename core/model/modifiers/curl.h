@@ -9,18 +9,6 @@ namespace whorl {
 /// Hairs wind about the curve that they had.
 struct CurlParams {
     static constexpr BlockInfo info{"curl", "Curl", "Winds hairs into curls and ringlets."};
-    enum Row : std::size_t {
-        RootRadius = 2,
-        TipRadius,
-        Turns,
-        Variation,
-        Phase,
-        Flips,
-        Shared,
-        KeepLength,
-        Seed,
-        rowCount
-    };
 
     Driven rootRadius{0.002f};
     Driven tipRadius{0.006f};

@@ -14,7 +14,6 @@ inline constexpr std::array<std::string_view, 2> lengthMethodNames{"Scale the sh
 /// Sets the length of hairs: a share of what it was, or in metres.
 struct LengthParams {
     static constexpr BlockInfo info{"length", "Length", "Makes hair shorter or longer, by share, length or at random."};
-    enum Row : std::size_t { Mode = 2, Factor, Length, Random, Method, Seed, rowCount };
 
     Choice mode{};
     Driven factor{0.7f};

@@ -9,17 +9,6 @@ namespace whorl {
 /// A noise vector at every vertex, looked up at its place; neighbours move together or each hair on its own.
 struct NoiseParams {
     static constexpr BlockInfo info{"noise", "Noise", "Waves that run through the hair, or strays of each hair."};
-    enum Row : std::size_t {
-        RootAmplitude = 2,
-        TipAmplitude,
-        Frequency,  // x, y, z
-        Correlation = Frequency + 3,
-        Octaves,
-        Shared,
-        KeepLength,
-        Seed,
-        rowCount
-    };
 
     Driven rootAmplitude{0.0f};
     Driven tipAmplitude{0.008f};

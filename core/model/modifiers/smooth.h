@@ -9,7 +9,6 @@ namespace whorl {
 /// Moves vertices to the middle between their neighbours, again and again. Root and tip stay.
 struct SmoothParams {
     static constexpr BlockInfo info{"smooth", "Smooth", "Takes small bends out of hair."};
-    enum Row : std::size_t { Strength = 2, Iterations, KeepLength, rowCount };
 
     Driven strength{0.5f};
     int iterations = 4;
@@ -35,7 +34,6 @@ struct SmoothParams {
 /// Pulls hairs to the straight line from root to tip.
 struct StraightenParams {
     static constexpr BlockInfo info{"straighten", "Straighten", "Pulls hair straight."};
-    enum Row : std::size_t { Root = 2, Tip, KeepLength, rowCount };
 
     Driven root{1.0f};
     Driven tip{1.0f};

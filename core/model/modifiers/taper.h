@@ -9,7 +9,6 @@ namespace whorl {
 /// Multiplies widths along the hair. Moves nothing.
 struct TaperParams {
     static constexpr BlockInfo info{"taper", "Taper", "Makes hair thicker or thinner along its way."};
-    enum Row : std::size_t { Root = 2, Tip, Profile, rowCount };
 
     Driven root{1.0f};
     Driven tip{0.2f};

@@ -66,10 +66,14 @@ Strands grownFrom(const Groom& groom, const std::vector<HairRoot>& roots) {
     const GuideShapes shapes(groom);
     const Bindings bindings = bindHairs(groom, GuideIndex(groom), roots, progress);
     const std::vector<HairTraits> traits = makeTraits(lookup, roots, progress);
-    const HairSources sources{groom, roots, bindings, traits, shapes, lookup.kinkOffset(), nullptr};
+    const ModifierChain chain(groom);
+    const ClumpSet clumps;
+    const CentresOfHairs centres;
+    const HairSources sources{groom,   roots, bindings, traits, shapes, lookup.kinkOffset(),
+                              nullptr, chain, clumps,   centres};
     Strands strands;
-    const std::vector<std::uint32_t> grown = layOut(sources, strands);
-    std::vector<std::uint32_t> all(grown.size());
+    const GrownHairs grown = layOut(sources, strands);
+    std::vector<std::uint32_t> all(grown.count());
     std::iota(all.begin(), all.end(), 0u);
     evaluateHairs(sources, grown, all, strands, progress);
     return strands;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hairs of a strand around their base hair. See core/base/simd.h.
+#pragma once
+
+#include "core/base/simd.h"
+
+#include <cstddef>
+
+namespace whorl {
+
+/// Sixteen base hairs in lanes, coordinate of vertex v of lane l at [v * 16 + l]: a member is
+/// base + across * U + up * V + lift * W.
+struct MemberArrays {
+    static constexpr std::size_t lanes = 16;
+    std::size_t vertices;
+    // In: the base hair, before its cut, and its normals.
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* normalX;
+    const float* normalY;
+    const float* normalZ;
+    const float* surfaceX;  ///< normal of the skin, one a lane
+    const float* surfaceY;
+    const float* surfaceZ;
+    const float* along;  ///< one a vertex
+    const float* ease;
+    // In, one a lane.
+    const float* rootSplay;
+    const float* centreSplay;
+    const float* tipSplay;
+    const float* twist;   ///< whole turns from root to tip
+    const float* offset;  ///< of the tip along the normal
+    // Out, three coordinates each.
+    float* u[3];
+    float* v[3];
+    float* w[3];
+};
+
+/// One member a lane, once the rows above are cut.
+struct MemberPoints {
+    std::size_t vertices;  ///< rows, of which one more is read of every array
+    const float* base[3];
+    const float* normal[3];
+    const float* u[3];
+    const float* v[3];
+    const float* w[3];
+    const float* across;  ///< one a lane
+    const float* up;
+    const float* lift;
+    // Out: points, with one row more than `vertices`, and unit normals.
+    float* point[3];
+    float* pointNormal[3];
+};
+
+#define WHORL_MEMBER_KERNELS(level)                                        \
+    namespace level {                                                      \
+    /* U, V and W of base hairs. */                                        \
+    void strandAxes(const MemberArrays& arrays);                           \
+    /* Points of one member a base hair and its normals, across its own */ \
+    /* direction, made from those of the base hair. */                     \
+    void strandMembers(const MemberPoints& arrays);                        \
+    }
+WHORL_EACH_SIMD_LEVEL(WHORL_MEMBER_KERNELS)
+#undef WHORL_MEMBER_KERNELS
+
+}  // namespace whorl
