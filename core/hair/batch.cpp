@@ -14,6 +14,12 @@ std::vector<std::uint32_t> allOf(const GrownHairs& grown) {
     return which;
 }
 
+std::size_t mostHairsOfRoot(const Groom& groom) {
+    int most = 1;
+    for (const Group& group : *groom.groups) most = std::max(most, group.params.strands.hairs);
+    return static_cast<std::size_t>(most);
+}
+
 bool wantsSkin(const Groom& groom) {
     return std::any_of(groom.groups->begin(), groom.groups->end(),
                        [](const Group& group) { return group.params.general.keepOutside; });
@@ -69,7 +75,7 @@ Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, c
     constexpr double leastPerPiece = 4096.0;
     const HairWish wish = wishFor(parts, options);
     const RootSource source{*parts.groom.mesh, parts.sampler, lookups.density, wish.request};
-    const std::size_t step = std::max(blockSize, 1u);
+    const std::size_t step = std::max<std::size_t>(blockSize / mostHairsOfRoot(parts.groom), 1);
     // Roots are made for a piece of the surface, hair for at most `step` of them.
     const double perPiece = std::max(static_cast<double>(step), leastPerPiece);
     const auto pieces = static_cast<std::size_t>(expectedRoots(source, wish.range) / perPiece) + 1;

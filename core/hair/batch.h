@@ -70,6 +70,9 @@ struct Batch {
     }
 };
 
+/// Most hairs that a root gives: those of the largest strand, else 1.
+std::size_t mostHairsOfRoot(const Groom& groom);
+
 /// 0, 1, 2 ... one a hair: for evaluateHairs.
 std::vector<std::uint32_t> allOf(const GrownHairs& grown);
 

@@ -157,7 +157,7 @@ void Evaluator::runStep(const GroupTables& group, const ModifierStep& step, std:
         arrays.centreZ = centres.z.data();
     }
     for (std::size_t l = 0; l < lanes; ++l) {
-        const float width = s.traits[m_roots[std::min(l, count - 1)]].rootWidth;
+        const float width = s.traits[m_roots[std::min(l, count - 1)]].thickness;
         thickness[l] = group.usualWidth > 0.0f ? width / group.usualWidth : 1.0f;
     }
     arrays.centreFirst = first;

@@ -230,7 +230,8 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
         countHairs(s.parts, options);
         const HairWish wish = wishFor(s.parts, options);
         const HairLookups lookups(s.parts.groom, options.time);
-        expected = expectedRoots({*groom.mesh, s.parts.sampler, lookups.density, wish.request}, wish.range);
+        expected = expectedRoots({*groom.mesh, s.parts.sampler, lookups.density, wish.request}, wish.range) *
+                   static_cast<double>(mostHairsOfRoot(groom));
         if (expected <= mostKept) {
             s.renewBatch(lookups, wish, progress);
             if (progress.cancelled()) return cancelledError();

@@ -46,8 +46,8 @@ public:
     Result<std::shared_ptr<const Strands>> generateShared(const Groom& groom, const GenerateOptions& options,
                                                           Progress& progress);
 
-    /// In blocks of at most `blockSize` hairs, in the same order, with constant memory: `sink` gets each block once,
-    /// from the calling thread, and returns false to stop (the call then gives cancelledError()).
+    /// In blocks of at most `blockSize` hairs (a strand stays whole), in the same order, with constant memory: `sink`
+    /// gets each block once, from the calling thread, and returns false to stop (the call then gives cancelledError()).
     Result<void> stream(const Groom& groom, const GenerateOptions& options, std::uint32_t blockSize,
                         const std::function<bool(const Strands&)>& sink, Progress& progress);
 

@@ -10,7 +10,8 @@ struct HairTraits {
     float scale;  ///< random shortening included
     float displacement;
     float rootWidth, tipWidth;
-    float frizz[3];  ///< the hair's noise vector, about unit length at most
+    float thickness;  ///< the root's width as the artist has it, at every level of detail
+    float frizz[3];   ///< the hair's noise vector, about unit length at most
     float frizzRoot, frizzTip;
     float kinkRoot, kinkTip;
     float kinkFrequency[3];

@@ -22,7 +22,7 @@ Result<std::shared_ptr<const PreparedGroom>> PreparedGroom::make(const Groom& gr
     try {
         Result<RootSampler> sampler = RootSampler::build(groom, DensityLookup(groom), progress);
         if (!sampler) return sampler.error();
-        HairParts parts{groom, {}, std::move(*sampler), GuideIndex(groom), GuideShapes(groom), {}};
+        HairParts parts{groom, {}, std::move(*sampler), GuideIndex(groom), GuideShapes(groom), {}, {}, -1.0};
         parts.clumps.build(groom, ModifierChain(groom), parts.index, parts.shapes, true, progress);
         countHairs(parts, {});
         if (wantsSkin(groom)) {

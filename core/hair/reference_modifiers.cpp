@@ -161,7 +161,7 @@ void bend(Work& w, Curve& curve) {
     if (glm::dot(direction, direction) <= 1e-12f) return;
     const glm::vec3 down = glm::normalize(direction);
     const float usual = w.with.groom.groups->at(w.root.group).params.general.rootThickness.value;
-    const float thickness = std::max(usual > 0.0f ? w.traits.rootWidth / usual : 1.0f, 0.05f);
+    const float thickness = std::max(usual > 0.0f ? w.traits.thickness / usual : 1.0f, 0.05f);
     const float heavy =
         1.0f + w.numbers[BendRows::ByLength] * (sumOf(lengths) / w.numbers[BendRows::ReferenceLength] - 1.0f);
     const float weak = 1.0f + w.numbers[BendRows::ByThickness] * (1.0f / (thickness * thickness) - 1.0f);

@@ -125,6 +125,7 @@ HairTraits TraitLookup::at(const HairRoot& root) const {
     t.scale = e.scale.at(root.uv) * (1.0f - e.randomScale.at(root.uv) * random(m_seed, root.id, HairChannel::Scale));
     t.displacement = e.displacement.at(root.uv);
     t.rootWidth = e.rootThickness.at(root.uv);
+    t.thickness = t.rootWidth;
     t.tipWidth = e.tipThickness.at(root.uv);
     setColours(e, root, t);
     setFrizz(e, root, t);
