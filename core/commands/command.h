@@ -39,8 +39,8 @@ struct Command {
 };
 
 /// core's commands: open, save, new, set, get, info, place-guides, clear-guides, fill-map, load-map, save-map,
-/// stroke, brush, view, generate, hash, export, grow, parts, those of modifiers and presets. Programs add their own
-/// (render).
+/// stroke, brush, view, generate, hash, export, grow, parts, add-parting, remove-parting, clear-partings, those of
+/// modifiers and presets. Programs add their own (render).
 std::vector<Command> coreCommands();
 
 /// Words of a line; "double quotes" keep blanks, # starts a comment.

@@ -8,6 +8,7 @@ std::vector<Command> coreCommands() {
     addFileCommands(list);
     addEditCommands(list);
     addModifierCommands(list);
+    addPartingCommands(list);
     addStrokeCommands(list);
     return list;
 }

@@ -13,6 +13,7 @@ namespace whorl {
 void addFileCommands(std::vector<Command>& list);
 void addEditCommands(std::vector<Command>& list);
 void addModifierCommands(std::vector<Command>& list);
+void addPartingCommands(std::vector<Command>& list);
 void addStrokeCommands(std::vector<Command>& list);
 
 /// The whole of `text` as a number; nothing when it is none, not finite or out of range. Does not look at the locale.

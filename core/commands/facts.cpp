@@ -2,6 +2,7 @@
 #include "core/commands/facts.h"
 
 #include "core/param/path.h"
+#include "core/surface/parting_line.h"
 #include "core/surface/surface_point.h"
 
 #include <nlohmann/json.hpp>
@@ -57,6 +58,11 @@ std::string groomFactsText(const Groom& groom) {
         line("group", (*groom.groups)[g].name + ", " + std::to_string(count) + " guides of " +
                           std::to_string((*groom.groups)[g].params.general.segments + 1) + " points");
     }
+    for (const Parting& parting : *groom.partings) {
+        line("parting", std::to_string(parting.id) + (parting.name.empty() ? "" : ", " + parting.name) + ", " +
+                            std::to_string(parting.points.size()) + " points, " +
+                            metres(partingLength(mesh, parting)) + " m");
+    }
     line("guides", std::to_string(groom.guides.count()));
     line("hairs", std::to_string(groom.counts->hairs));
     return text;
@@ -88,6 +94,13 @@ std::string groomFactsJson(const Groom& groom, const Problems& problems, const s
     }
     json["groups"] = Json::array();
     for (const Group& group : *groom.groups) json["groups"].push_back(group.name);
+    json["partings"] = Json::array();
+    for (const Parting& parting : *groom.partings) {
+        json["partings"].push_back({{"id", parting.id},
+                                    {"name", parting.name},
+                                    {"points", parting.points.size()},
+                                    {"length", partingLength(mesh, parting)}});
+    }
     json["guides"] = groom.guides.count();
     Json parameters = Json::object();
     for (const std::string& path : groomPaths(groom)) {

@@ -93,7 +93,7 @@ bool sameDensity(const Groom& a, const Groom& b) {
 }
 
 bool sameBindings(const Groom& a, const Groom& b) {
-    return a.mesh.sameAs(b.mesh) &&
+    return a.mesh.sameAs(b.mesh) && (a.partings.sameAs(b.partings) || *a.partings == *b.partings) &&
            allGroups(a, b,
                      [](const HairParams& x, const HairParams& y) {
                          return x.general.samples == y.general.samples &&

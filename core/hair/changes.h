@@ -9,7 +9,8 @@ namespace whorl {
 /// True when both ask for the same density everywhere: same mesh, growing parts, group map, density numbers and maps.
 bool sameDensity(const Groom& a, const Groom& b);
 
-/// True when bindings made for one serve the other, given the same roots: same guide roots, samples, interpolation.
+/// True when bindings made for one serve the other, given the same roots: same guide roots, partings, samples,
+/// interpolation.
 bool sameBindings(const Groom& a, const Groom& b);
 
 /// True when every group has the same number of segments.

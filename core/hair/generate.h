@@ -28,8 +28,9 @@ struct GenerateOptions {
 /// bindings of hairs to guides. Per hair (seed 000, section 4.2.2): root sample, cut, group, interpolation from the
 /// nearest guides of the group (KD-tree, Shepard weights), scale, frizz, kink, modifiers in the group's order, keeping
 /// outside, colour, opacity, width, strands, cut, normals by double reflection, skipped vertices. A hair whose cut is
-/// zero, or for which there are no guides, is left out; ids keep their gaps. The same groom, seed and options give the
-/// same bytes on any number of threads, any split and any SIMD level. One thread at a time; use one Generator a thread.
+/// zero, or for which there are no guides (all beyond partings), is left out; ids keep their gaps. The same groom, seed
+/// and options give the same bytes on any number of threads, any split and any SIMD level. One thread at a time; use
+/// one Generator a thread.
 class Generator {
 public:
     Generator();

@@ -73,7 +73,7 @@ GuideIndex::~GuideIndex() = default;
 GuideIndex::GuideIndex(GuideIndex&&) noexcept = default;
 GuideIndex& GuideIndex::operator=(GuideIndex&&) noexcept = default;
 
-GuideIndex::GuideIndex(const Groom& groom) {
+GuideIndex::GuideIndex(const Groom& groom) : m_partings(*groom.mesh, *groom.partings) {
     for (std::size_t i = 0; i < groom.groups->size(); ++i) m_trees.push_back(std::make_unique<Tree>());
     std::uint32_t index = 0;
     for (std::size_t b = 0; b < groom.guides.blockCount(); ++b) {
@@ -127,7 +127,8 @@ std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, co
     std::vector<std::uint32_t> moreFound;
     std::vector<float> moreSquared;
     std::vector<Candidate> moreCandidates;
-    for (std::size_t asked = std::min(needed + 3, roots.size());; asked = std::min(asked * 2, roots.size())) {
+    std::size_t most = roots.size();
+    for (std::size_t asked = std::min(needed + 3, roots.size());; asked = std::min(asked * 2, most)) {
         std::uint32_t* found = fixedFound.data();
         float* squared = fixedSquared.data();
         Candidate* candidates = fixedCandidates.data();
@@ -140,18 +141,31 @@ std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, co
             candidates = moreCandidates.data();
         }
         m_trees[group]->tree->knnSearch(query, asked, found, squared);
+        const bool parted = m_partings.near(position, std::sqrt(squared[asked - 1]));
+        if (parted) most = std::min(most, std::max(asked, mostLookedAt));
+        std::size_t count = 0;
         for (std::size_t i = 0; i < asked; ++i) {
             const GuideRoot& root = roots[found[i]];
-            candidates[i] = {rootDistanceSquared(position, normal, root), root.id, found[i]};
+            float distance = rootDistanceSquared(position, normal, root);
+            if (parted) {
+                const float detour = m_partings.detour({position, normal}, {root.position, root.normal});
+                if (detour == PartingIndex::separate) continue;
+                distance *= detour * detour;
+            }
+            candidates[count++] = {distance, root.id, found[i]};
         }
-        std::partial_sort(candidates, candidates + needed, candidates + asked);
-        if (asked < roots.size() && squared[asked - 1] <= candidates[needed - 1].squared) continue;
-        for (std::size_t i = 0; i < wanted; ++i) {
+        const bool more = asked < most;
+        if (more && count < needed) continue;
+        const std::size_t sorted = std::min(needed, count);
+        std::partial_sort(candidates, candidates + sorted, candidates + count);
+        if (more && squared[asked - 1] <= candidates[needed - 1].squared) continue;
+        const std::size_t given = std::min(wanted, count);
+        for (std::size_t i = 0; i < given; ++i) {
             const GuideRoot& root = roots[candidates[i].root];
             out[i] = {root.guide, 0.0f, &root};
         }
-        setWeights({candidates, wanted}, needed > wanted ? candidates[wanted].squared : -1.0f, out);
-        return wanted;
+        setWeights({candidates, given}, count > given ? candidates[given].squared : -1.0f, out);
+        return given;
     }
 }
 

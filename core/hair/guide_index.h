@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/model/groom.h"
+#include "core/surface/parting_index.h"
 
 #include <glm/vec3.hpp>
 
@@ -32,6 +33,7 @@ struct Neighbour {
 class GuideIndex {
 public:
     static constexpr std::size_t maxNeighbours = 20;
+    static constexpr std::size_t mostLookedAt = 1024;
 
     GuideIndex();
     /// Guides of groups that the groom does not have are left out.
@@ -45,17 +47,23 @@ public:
     /// Roots of a group, in order of the guides.
     std::span<const GuideRoot> rootsOf(std::size_t group) const;
 
+    const PartingIndex& partings() const { return m_partings; }
+
     /// The up to `samples` guides of the group that are nearest to a root, nearest first, with Shepard weights
     /// ((R - d) / (R d))^2, where R is the distance to the next guide, so that weights go smoothly to zero before
     /// another guide takes a place (Franke and Little; 1 / d^2 when there is no next). At a guide's own root only that
     /// guide counts. Distances are Euclidean, made up to nine times longer as normals turn apart, so that guides on
-    /// the other side of a thin sheet (an ear) come last. Equal distances go by id. Returns how many were written.
+    /// the other side of a thin sheet (an ear) come last. Equal distances go by id. Guides that a parting separates
+    /// from the root are left out, and the way round the end of a parting counts (PartingIndex::detour); where all
+    /// are separated there is none. Beside partings at most the `mostLookedAt` nearest guides are looked at. Returns
+    /// how many were written.
     std::size_t nearest(std::size_t group, const glm::vec3& position, const glm::vec3& normal, int samples,
                         std::span<Neighbour> out) const;
 
 private:
     struct Tree;
     std::vector<std::unique_ptr<Tree>> m_trees;
+    PartingIndex m_partings;
 };
 
 /// Squared distance between roots as neighbours are chosen by it: see GuideIndex::nearest.

@@ -88,6 +88,20 @@ json encodeGuides(const GuideSet& guides, ContainerWriter& writer) {
             {"points", blobToJson(writer.addOwned(bytesOf(stored.points)))}};
 }
 
+json encodePartings(const std::vector<Parting>& partings, ContainerWriter& writer) {
+    StoredPartings stored;
+    for (const Parting& parting : partings) {
+        stored.ids.push_back(parting.id);
+        stored.sizes.push_back(static_cast<std::uint32_t>(parting.points.size()));
+        stored.points.insert(stored.points.end(), parting.points.begin(), parting.points.end());
+        appendText(stored.names, parting.name);
+    }
+    return {{"ids", blobToJson(writer.addOwned(bytesOf(stored.ids)))},
+            {"sizes", blobToJson(writer.addOwned(bytesOf(stored.sizes)))},
+            {"points", blobToJson(writer.addOwned(bytesOf(stored.points)))},
+            {"names", blobToJson(writer.addOwned(std::move(stored.names)))}};
+}
+
 /// Collects what is to be inflated, each into memory of the right size.
 struct Wanted {
     Container& container;
@@ -141,6 +155,33 @@ void readGuides(ManifestReader reader, Wanted& wanted, StoredGuides& stored) {
         wanted.fault = "the arrays of its guides do not fit together.";
 }
 
+void readPartings(ManifestReader reader, Wanted& wanted, StoredPartings& stored) {
+    wanted.array(reader.blob("ids"), stored.ids);
+    wanted.array(reader.blob("sizes"), stored.sizes);
+    wanted.array(reader.blob("points"), stored.points);
+    wanted.array(reader.blob("names"), stored.names);
+    if (wanted.fault.empty() && stored.sizes.size() != stored.ids.size())
+        wanted.fault = "the arrays of its partings do not fit together.";
+}
+
+Result<std::vector<Parting>> finishPartings(const StoredPartings& stored) {
+    std::vector<Parting> partings;
+    std::span<const std::uint8_t> names = stored.names;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < stored.ids.size(); ++i) {
+        Parting parting{stored.ids[i], {}, {}};
+        if (!takeText(names, parting.name)) return Error{"the names of its partings are cut short."};
+        if (stored.sizes[i] > stored.points.size() - at)
+            return Error{"the points of its partings do not fit together."};
+        const auto first = stored.points.begin() + static_cast<std::ptrdiff_t>(at);
+        parting.points.assign(first, first + static_cast<std::ptrdiff_t>(stored.sizes[i]));
+        at += stored.sizes[i];
+        partings.push_back(std::move(parting));
+    }
+    if (at != stored.points.size()) return Error{"the points of its partings do not fit together."};
+    return partings;
+}
+
 Result<void> finishMesh(StoredMesh& stored, Groom& groom, Problems& problems) {
     std::span<const std::uint8_t> texts = stored.texts;
     for (const StoredPart& part : stored.parts) {
@@ -192,11 +233,14 @@ json encodeGroom(const Groom& groom, ContainerWriter& writer) {
     json groups = json::array();
     for (const Group& group : *groom.groups)
         groups.push_back({{"name", group.name}, {"params", hairParamsToJson(group.params)}});
-    return {{"mesh", encodeMesh(*groom.mesh, *groom.partSettings, writer)},
-            {"guides", encodeGuides(groom.guides, writer)},
-            {"maps", encodeMaps(groom.maps, writer)},
-            {"groups", std::move(groups)},
-            {"counts", countsToJson(*groom.counts)}};
+    json manifest{{"mesh", encodeMesh(*groom.mesh, *groom.partSettings, writer)},
+                  {"guides", encodeGuides(groom.guides, writer)},
+                  {"maps", encodeMaps(groom.maps, writer)},
+                  {"groups", std::move(groups)},
+                  {"counts", countsToJson(*groom.counts)}};
+    // Left out when there are none, so that such documents stay the same, byte for byte.
+    if (!groom.partings->empty()) manifest["partings"] = encodePartings(*groom.partings, writer);
+    return manifest;
 }
 
 Result<OpenedDocument> decodeGroom(Container& container, const json& manifest, const std::string& name,
@@ -220,6 +264,13 @@ Result<OpenedDocument> decodeGroom(Container& container, const json& manifest, c
         reportUnknownKeys(*object, {"next_id", "ids", "roots", "groups", "sizes", "points"}, "guides", problems);
         readGuides({*object, "its guides", fault}, wanted, guides);
     }
+    StoredPartings partings;
+    if (manifest.contains("partings") && manifest.is_object()) {
+        if (const json* object = reader.object("partings")) {
+            reportUnknownKeys(*object, {"ids", "sizes", "points", "names"}, "partings", problems);
+            readPartings({*object, "its partings", fault}, wanted, partings);
+        }
+    }
     MapDecoder maps(container, fault);
     if (const json* list = reader.array("maps")) maps.read(*list, problems, wanted.requests);
     if (auto done = readParameters(manifest, opened.groom, problems, fault); !done) return broken(done.error().message);
@@ -234,6 +285,10 @@ Result<OpenedDocument> decodeGroom(Container& container, const json& manifest, c
     if (points != guides.points.size()) return broken("the points of its guides do not fit together.");
     if (auto done = finishMesh(mesh, opened.groom, problems); !done) return broken(done.error().message);
     opened.groom.guides = repairedGuides(guides, *opened.groom.mesh, *opened.groom.groups, problems);
+    auto lines = finishPartings(partings);
+    if (!lines) return broken(lines.error().message);
+    repairPartings(*lines, *opened.groom.mesh, problems);
+    if (!lines->empty()) opened.groom.partings = Cow<std::vector<Parting>>(std::move(*lines));
     if (auto done = maps.finish(opened.groom.maps, problems); !done) return broken(done.error().message);
     if (progress.cancelled()) return cancelledError();
     return opened;

@@ -157,4 +157,37 @@ GuideSet repairedGuides(const StoredGuides& stored, const SurfaceMesh& mesh, con
     return guides;
 }
 
+void repairPartings(std::vector<Parting>& partings, const SurfaceMesh& mesh, Problems& problems) {
+    std::size_t moved = 0, lostPoints = 0, lost = 0, renumbered = 0;
+    std::set<std::uint32_t> given, ids;
+    for (const Parting& parting : partings) given.insert(parting.id);
+    std::uint32_t fresh = 1;
+    std::vector<Parting> kept;
+    for (Parting& parting : partings) {
+        lostPoints += std::erase_if(parting.points,
+                                    [&](const SurfacePoint& point) { return point.triangle >= mesh.triangleCount(); });
+        for (SurfacePoint& point : parting.points) moved += repairRoot(point);
+        if (parting.points.size() > Parting::maxPoints) {
+            lostPoints += parting.points.size() - Parting::maxPoints;
+            parting.points.resize(Parting::maxPoints);
+        }
+        if (parting.points.size() < 2 || kept.size() == Parting::maxPartings) {
+            ++lost;
+            continue;
+        }
+        if (parting.id == 0 || !ids.insert(parting.id).second) {
+            while (given.contains(fresh)) ++fresh;
+            parting.id = fresh++;
+            ids.insert(parting.id);
+            ++renumbered;
+        }
+        kept.push_back(std::move(parting));
+    }
+    partings = std::move(kept);
+    say(problems, moved, "points of partings lay outside their triangles; they were moved onto them.");
+    say(problems, lostPoints, "points of partings did not lie on the mesh or were too many; they are left out.");
+    say(problems, lost, "partings had fewer than two points or were too many; they are left out.");
+    say(problems, renumbered, "partings shared their number with another; they have new ones.");
+}
+
 }  // namespace whorl

@@ -17,6 +17,14 @@ struct StoredGuides {
     std::uint32_t nextId = 1;
 };
 
+/// Partings as a file holds them.
+struct StoredPartings {
+    std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> sizes;  ///< points of each parting
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint8_t> names;  ///< 32-bit length and bytes each
+};
+
 /// Refuses indices outside and vertices that are not finite; repairs normals, UVs and parts.
 Result<void> repairMesh(SurfaceMesh& mesh, std::vector<PartSettings>& settings, Problems& problems);
 
@@ -27,5 +35,9 @@ void repairGroups(std::vector<Group>& groups, Problems& problems);
 /// numbers of points than the group wants are put right. The sum of `sizes` is the number of points.
 GuideSet repairedGuides(const StoredGuides& stored, const SurfaceMesh& mesh, const std::vector<Group>& groups,
                         Problems& problems);
+
+/// Leaves out points that are not on the mesh, partings that then have none to join, and those above the most; puts
+/// repeated ids right.
+void repairPartings(std::vector<Parting>& partings, const SurfaceMesh& mesh, Problems& problems);
 
 }  // namespace whorl

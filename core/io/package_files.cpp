@@ -84,7 +84,7 @@ Result<OpenedDocument> groomFromShared(std::span<const std::uint8_t> bytes, cons
     if (!manifest) return manifest.error();
     if (!manifest->is_object()) return Error{name + " is broken: its table of contents is not an object."};
     Problems problems;
-    reportUnknownKeys(*manifest, {"mesh", "guides", "maps"}, packageShared, problems);
+    reportUnknownKeys(*manifest, {"mesh", "guides", "maps", "partings"}, packageShared, problems);
     for (const char* key : {"groups", "counts"}) {
         if (parameters.contains(key)) (*manifest)[key] = parameters[key];
     }

@@ -14,6 +14,10 @@ bool finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+bool standsOn(const SurfacePoint& point) {
+    return point.u >= 0.0f && point.v >= 0.0f && point.u + point.v <= 1.0001f;
+}
+
 void checkMesh(const SurfaceMesh& mesh, Problems& problems) {
     if (mesh.triangles.empty()) problems.push_back("The mesh has no triangles.");
     if (mesh.normals.size() != mesh.positions.size()) {
@@ -55,8 +59,7 @@ void checkGuides(const Groom& groom, Problems& problems) {
         const GuideBlock& block = groom.guides.block(b);
         for (std::size_t i = 0; i < block.count(); ++i) {
             const SurfacePoint& root = block.roots[i];
-            if (root.triangle >= triangles || !(root.u >= 0.0f) || !(root.v >= 0.0f) || !(root.u + root.v <= 1.0001f))
-                ++badRoots;
+            if (root.triangle >= triangles || !standsOn(root)) ++badRoots;
             if (!ids.insert(block.ids[i]).second) ++repeated;
             const std::uint32_t points = block.firstPoint[i + 1] - block.firstPoint[i];
             if (block.groups[i] >= groups.size()) {
@@ -76,6 +79,27 @@ void checkGuides(const Groom& groom, Problems& problems) {
     say(badGroups, " guides belong to a group that is not there.");
     say(badCounts, " guides have another number of points than their group.");
     say(badPoints, " guide points are not finite numbers.");
+}
+
+void checkPartings(const Groom& groom, Problems& problems) {
+    const std::uint32_t triangles = groom.mesh->triangleCount();
+    if (groom.partings->size() > Parting::maxPartings) {
+        problems.push_back("A groom has at most " + std::to_string(Parting::maxPartings) + " partings; this one has " +
+                           std::to_string(groom.partings->size()) + ".");
+    }
+    std::set<std::uint32_t> ids;
+    for (const Parting& parting : *groom.partings) {
+        const std::string name = "Parting " + std::to_string(parting.id);
+        if (parting.id == 0 || !ids.insert(parting.id).second)
+            problems.push_back(name + " shares its number with another, or has none.");
+        if (parting.points.size() < 2 || parting.points.size() > Parting::maxPoints)
+            problems.push_back(name + " has " + std::to_string(parting.points.size()) + " points; 2 to " +
+                               std::to_string(Parting::maxPoints) + " are right.");
+        const bool on = std::all_of(parting.points.begin(), parting.points.end(), [&](const SurfacePoint& point) {
+            return point.triangle < triangles && standsOn(point);
+        });
+        if (!on) problems.push_back(name + " does not lie on the mesh.");
+    }
 }
 
 void checkGroups(const Groom& groom, Problems& problems) {
@@ -126,7 +150,8 @@ float largestSide(const SurfaceMesh& mesh) {
 
 bool Groom::sameAs(const Groom& other) const {
     return mesh.sameAs(other.mesh) && partSettings.sameAs(other.partSettings) && guides.sameAs(other.guides) &&
-           maps.sameAs(other.maps) && groups.sameAs(other.groups) && counts.sameAs(other.counts);
+           maps.sameAs(other.maps) && groups.sameAs(other.groups) && counts.sameAs(other.counts) &&
+           partings.sameAs(other.partings);
 }
 
 std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
@@ -140,6 +165,10 @@ std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
         for (const Group& group : *groups) bytes += sizeof(Group) + group.params.modifiers.size() * sizeof(Modifier);
     }
     if (!counts.sameAs(before.counts)) bytes += sizeof(CountParams);
+    if (!partings.sameAs(before.partings)) {
+        for (const Parting& parting : *partings)
+            bytes += sizeof(Parting) + parting.points.size() * sizeof(SurfacePoint);
+    }
     return bytes;
 }
 
@@ -183,6 +212,7 @@ Problems checkGroom(const Groom& groom) {
     }
     checkGroups(groom, problems);
     checkGuides(groom, problems);
+    checkPartings(groom, problems);
     return problems;
 }
 

@@ -6,6 +6,7 @@
 #include "core/model/guide_set.h"
 #include "core/model/hair_params.h"
 #include "core/model/map.h"
+#include "core/model/parting.h"
 #include "core/model/surface_mesh.h"
 
 #include <cstdint>
@@ -33,6 +34,7 @@ struct Groom {
     MapSet maps;
     Cow<std::vector<Group>> groups{{Group{"hair"}}};  ///< 1 to maxGroups
     Cow<CountParams> counts;
+    Cow<std::vector<Parting>> partings;  ///< at most Parting::maxPartings
 
     /// True when every part is shared with `other`: nothing can differ.
     bool sameAs(const Groom& other) const;

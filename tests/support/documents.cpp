@@ -32,6 +32,8 @@ Groom baseGroom() {
     groom.maps.edit("density")->setTexel(3, 4, 0, 0.5f);
     groom.maps.set("colour", Map(8, 8, 3, TexelFormat::U8, 0.5f));
     groom.maps.edit("colour")->setTexel(1, 1, 2, 1.0f);
+    groom.partings.edit() = {{1, "middle", {{0, 0.5f, 0.25f}, {3, 0.25f, 0.5f}, {7, 0.1f, 0.2f}}},
+                             {4, "", {{2, 0.0f, 0.0f}, {5, 1.0f, 0.0f}}}};
     return groom;
 }
 

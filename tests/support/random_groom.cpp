@@ -136,6 +136,15 @@ struct Digest {
         }
         number(mesh.madeAtlas);
     }
+    // Nothing at all without partings: digests from before there were any stay.
+    void add(const std::vector<Parting>& partings) {
+        for (const Parting& parting : partings) {
+            number(parting.id);
+            text(parting.name);
+            number(parting.points.size());
+            for (const SurfacePoint& point : parting.points) number(point.triangle), number(point.u), number(point.v);
+        }
+    }
     void add(const GuideSet& guides) {
         number(guides.count());
         number(guides.nextId());
@@ -238,6 +247,15 @@ Groom randomGroom(std::uint32_t seed) {
         const int segments = (*groom.groups)[static_cast<std::size_t>(group)].params.general.segments;
         groom.guides.append(root, static_cast<std::uint8_t>(group), bentGuide(dice, *groom.mesh, root, segments));
     }
+    for (int i = dice.below(3); i > 0; --i) {
+        Parting parting{nextPartingId(*groom.partings), dice.chance(0.5f) ? "line" : "", {}};
+        for (int k = 2 + dice.below(5); k > 0; --k) {
+            const auto triangles = static_cast<int>(groom.mesh->triangleCount());
+            const float u = 0.5f * dice.unit();
+            parting.points.push_back({static_cast<std::uint32_t>(dice.below(triangles)), u, 0.5f * dice.unit()});
+        }
+        groom.partings.edit().push_back(std::move(parting));
+    }
     return groom;
 }
 
@@ -261,6 +279,7 @@ std::uint64_t groomDigest(const Groom& groom) {
         HairParams::eachWithModifiers(group.params, digest);
     }
     CountParams::each(*groom.counts, digest);
+    digest.add(*groom.partings);
     return hasher.digest();
 }
 

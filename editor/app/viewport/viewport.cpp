@@ -16,7 +16,8 @@ constexpr int frameMilliseconds = 16;
 /// True when hair generated from `a` can differ from that of `b`.
 bool hairMayDiffer(const Groom& a, const Groom& b) {
     return !a.mesh.sameAs(b.mesh) || !a.partSettings.sameAs(b.partSettings) || !a.guides.sameAs(b.guides) ||
-           !a.maps.sameAs(b.maps) || !a.groups.sameAs(b.groups) || !a.counts.sameAs(b.counts);
+           !a.maps.sameAs(b.maps) || !a.groups.sameAs(b.groups) || !a.counts.sameAs(b.counts) ||
+           !a.partings.sameAs(b.partings);
 }
 
 }  // namespace
