@@ -7,6 +7,7 @@
 #include "render/passes/hair_pass.h"
 #include "render/passes/mesh_pass.h"
 #include "render/passes/overlay_pass.h"
+#include "render/passes/partings_pass.h"
 #include "render/passes/pick.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/shadow_pass.h"
@@ -79,6 +80,7 @@ struct Renderer::State {
     gl::VertexArray vertexArray;
     MeshPass mesh;
     GuidesPass guides;
+    PartingsPass partings;
     HairPass hair;
     ShadowPass shadows;
     PicturePass picture;
@@ -118,6 +120,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     if (!mesh) return mesh.error();
     Result<GuidesPass> guides = GuidesPass::create();
     if (!guides) return guides.error();
+    Result<PartingsPass> partings = PartingsPass::create();
+    if (!partings) return partings.error();
     Result<HairPass> hair = HairPass::create();
     if (!hair) return hair.error();
     Result<PicturePass> picture = PicturePass::create();
@@ -125,10 +129,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     Result<OverlayPass> overlay = OverlayPass::create();
     if (!overlay) return overlay.error();
     std::unique_ptr<Renderer> renderer(new Renderer);
-    renderer->m_state = std::unique_ptr<State>(new State{std::move(*context), gl::VertexArray(), std::move(*mesh),
-                                                         std::move(*guides), std::move(*hair), ShadowPass(),
-                                                         std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
-                                                         gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    renderer->m_state = std::unique_ptr<State>(
+        new State{std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
+                  std::move(*hair), ShadowPass(), std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
+                  gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
     renderer->m_state->byProcessor = renderer->m_state->context.software;
     return renderer;
 }
@@ -146,6 +150,7 @@ void Renderer::setGroom(const Groom& groom, std::shared_ptr<const Surface> surfa
             for (const glm::vec3& p : groom.guides.block(i).points) state.guideBounds.add(p);
         }
     }
+    state.partings.setGroom(groom, state.uploads);
     if (meshChanged || partsChanged) state.shadows.meshChanged();
     state.groom = groom;
     state.surface = std::move(surface);
@@ -221,6 +226,10 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
         }
         state.raster.draw();
         state.picture.drawLayer(state.raster);
+    }
+    if (settings.showGuides) {
+        state.vertexArray.bind();
+        state.partings.draw(size);
     }
     state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);

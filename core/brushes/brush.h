@@ -50,10 +50,11 @@ struct BrushSettings {
     float strength = 0.5f;       ///< 0 to 1
     float value = 1.0f;          ///< what paint brushes paint, 0 to 1
     Reach reach = Reach::Projected;
-    bool mirrorX = false;     ///< does the same on the other side of x = 0
-    bool frontOnly = true;    ///< leaves guides alone whose root faces away or is hidden behind the mesh
-    bool keepLength = true;   ///< combing keeps the length of every segment
-    bool keepOutside = true;  ///< combing keeps guides out of the skin
+    bool mirrorX = false;         ///< does the same on the other side of x = 0
+    bool frontOnly = true;        ///< leaves guides alone whose root faces away or is hidden behind the mesh
+    bool keepLength = true;       ///< combing keeps the length of every segment
+    bool keepOutside = true;      ///< combing keeps guides out of the skin
+    bool respectPartings = true;  ///< leaves guides alone that a parting separates from where the stroke is
     bool pressureSize = false;
     bool pressureStrength = true;
     bool invert = false;  ///< Ctrl: the brush's opposite (grow for cut, erase for paint)

@@ -15,6 +15,7 @@ std::unique_ptr<Brush> makeSmooth();
 std::unique_ptr<Brush> makePuff();
 std::unique_ptr<Brush> makePlace();
 std::unique_ptr<Brush> makeDelete();
+std::unique_ptr<Brush> makeParting();
 std::unique_ptr<Brush> makePaint();
 std::unique_ptr<Brush> makeGroup();
 

@@ -27,6 +27,21 @@ std::optional<BrushArea> brushArea(BrushStep& step) {
     return area;
 }
 
+void StrokeSide::follow(const BrushStep& step) {
+    if (!m_made) m_partings = PartingIndex(step.surface.mesh(), *step.groom.partings);
+    m_made = true;
+    if (m_partings.empty() || !step.hit) return;
+    const PartingIndex::Root here{step.hit->position, normalAt(step.surface.mesh(), step.hit->point)};
+    if (!m_anchor || !m_partings.separated(*m_anchor, here)) m_anchor = here;
+}
+
+bool StrokeSide::has(const BrushStep& step, std::uint32_t guide) const {
+    if (!m_anchor) return true;
+    const SurfacePoint root = step.groom.guides.root(guide);
+    return !m_partings.separated(*m_anchor,
+                                 {positionAt(step.surface.mesh(), root), normalAt(step.surface.mesh(), root)});
+}
+
 bool GuideBrush::prepare(const BrushStep&, const BrushArea&) {
     return true;
 }
@@ -37,11 +52,16 @@ float GuideBrush::gather(const BrushStep&, float) const {
 
 void GuideBrush::step(BrushStep& step) {
     if (!(step.strength > 0.0f) || step.groom.guides.empty()) return;
+    if (step.settings.respectPartings) m_side.follow(step);
     const std::optional<BrushArea> area = brushArea(step);
     if (!area || !prepare(step, *area)) return;
     BrushIndex& index = step.scratch->guides;
     GuideSet& guides = step.groom.guides;
     index.select(step.groom, step.surface, *area, step.view, step.settings.frontOnly, step.mirrored, m_selection);
+    if (step.settings.respectPartings) {
+        std::erase_if(m_selection.guides,
+                      [&](const BrushIndex::Touched& touched) { return !m_side.has(step, touched.guide); });
+    }
     if (m_selection.guides.empty()) return;
     m_skin = step.settings.keepOutside ? SkinClearance::of(step.surface) : SkinClearance{};
 

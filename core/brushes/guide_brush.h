@@ -6,7 +6,9 @@
 #include "core/brushes/brush_index.h"
 #include "core/brushes/constraints.h"
 #include "core/brushes/screen.h"
+#include "core/surface/parting_index.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,21 @@ struct GuideTouch {
 
 /// The region of this step; nothing where the brush has no place (a ball without skin or hair under the cursor).
 std::optional<BrushArea> brushArea(BrushStep& step);
+
+/// Which side of partings a stroke is on: that of the skin under its first step. The anchor follows the pointer but
+/// does not cross a parting with it.
+class StrokeSide {
+public:
+    /// Once a step, with the groom of any step: strokes do not change partings that hold guides back.
+    void follow(const BrushStep& step);
+    /// True when no parting stands between the guide's root and the stroke.
+    bool has(const BrushStep& step, std::uint32_t guide) const;
+
+private:
+    bool m_made = false;
+    PartingIndex m_partings;
+    std::optional<PartingIndex::Root> m_anchor;
+};
 
 /// Base of brushes that move points. Several threads shape guides at once; the results are written in order, so that
 /// only blocks with a changed guide are unshared.
@@ -44,6 +61,7 @@ protected:
 
 private:
     SkinClearance m_skin;
+    StrokeSide m_side;
     BrushIndex::Selection m_selection;
     std::vector<std::size_t> m_firstPoint;
     std::vector<glm::vec3> m_points;

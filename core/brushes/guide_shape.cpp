@@ -2,6 +2,7 @@
 #include "core/brushes/guide_shape.h"
 
 #include "core/brushes/constraints.h"
+#include "core/surface/parting_index.h"
 
 #include <glm/geometric.hpp>
 
@@ -42,11 +43,15 @@ std::vector<glm::vec3> guideShapeAt(const Groom& groom, const Surface& surface, 
     const GuideSet& guides = groom.guides;
     std::array<Near, 4> nearest{};
     std::size_t found = 0;
+    const PartingIndex partings(mesh, *groom.partings);
     for (std::size_t b = 0; b < guides.blockCount(); ++b) {
         const GuideBlock& block = guides.block(b);
         for (std::size_t i = 0; i < block.count(); ++i) {
             if (block.groups[i] != group) continue;
             const glm::vec3 away = block.points[block.firstPoint[i]] - position;
+            if (partings.separated({position, normal},
+                                   {block.points[block.firstPoint[i]], normalAt(mesh, block.roots[i])}))
+                continue;
             Near candidate{glm::dot(away, away), guides.firstOfBlock(b) + i};
             found = std::min(found + 1, nearest.size());
             for (std::size_t k = 0; k < found; ++k) {

@@ -12,7 +12,8 @@ namespace whorl {
 /// Length of guides where nobody gave one: a tenth of the mesh's size, metres.
 float defaultGuideLength(const Surface& surface);
 
-/// Points of a guide of `group` at `root`: the mean of its nearest guides of the group (Shepard weights), turned with
+/// Points of a guide of `group` at `root`: the mean of its nearest guides of the group on its own side of partings
+/// (Shepard weights), turned with
 /// the skin from their roots to this one; along the normal, `length` metres (0: the default), where the group has none.
 std::vector<glm::vec3> guideShapeAt(const Groom& groom, const Surface& surface, const SurfacePoint& root,
                                     std::uint8_t group, float length);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/commands/command_list.h"
 #include "core/commands/facts.h"
+#include "core/commands/vertex_guides.h"
+#include "core/hair/explain.h"
 #include "core/param/path.h"
 
 #include <algorithm>
@@ -52,6 +54,48 @@ Result<std::string> place(CommandContext& context, Arguments arguments, Progress
     const auto surface = context.surfaces.get(context.groom.mesh);
     if (auto done = placeGuides(context.groom, *surface, count, length, false, progress); !done) return done.error();
     return std::to_string(context.groom.guides.count()) + " guides";
+}
+
+Result<std::string> placeOnVertices(CommandContext& context, Arguments arguments, Progress& progress) {
+    constexpr const char* usage = "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP]";
+    if (arguments.size() > 3) return usageError(usage);
+    if (!context.hasGroom) return noGroomError();
+    VertexGuides options;
+    if (!arguments.empty()) {
+        const auto number = numberFrom<float>(arguments[0], 0.0f, 1000.0f);
+        if (!number) return Error{"The length of guides must be from 0 to 1000 metres, not \"" + arguments[0] + "\"."};
+        options.length = *number;
+    }
+    if (arguments.size() > 1) {
+        const auto number = numberFrom<float>(arguments[1], 0.0f, 1e12f);
+        if (!number) return Error{"Guides a square metre must be 0 or more, not \"" + arguments[1] + "\"."};
+        options.perSquareMetre = *number;
+    }
+    if (arguments.size() > 2) options.lengthMap = arguments[2];
+    const auto surface = context.surfaces.get(context.groom.mesh);
+    if (auto done = placeGuidesOnVertices(context.groom, *surface, options, progress); !done) return done.error();
+    return std::to_string(context.groom.guides.count()) + " guides";
+}
+
+Result<std::string> tessellate(CommandContext& context, Arguments arguments, Progress&) {
+    if (arguments.empty() || arguments.size() > 2) return usageError("tessellate-guides SEGMENTS [GROUP]");
+    if (!context.hasGroom) return noGroomError();
+    const auto segments = numberFrom<int>(arguments[0], 1, 100);
+    if (!segments) return Error{"Guides have 1 to 100 segments, not \"" + arguments[0] + "\"."};
+    const int group = arguments.size() > 1 ? context.groom.groupIndex(arguments[1]) : 0;
+    if (group < 0) return Error{"There is no group \"" + arguments[1] + "\"."};
+    if (auto done = tessellateGuides(context.groom, group, *segments); !done) return done.error();
+    return std::string();
+}
+
+Result<std::string> explain(CommandContext& context, Arguments arguments, Progress& progress) {
+    if (arguments.size() != 1) return usageError("explain HAIR");
+    if (!context.hasGroom) return noGroomError();
+    const auto id = numberFrom<std::uint32_t>(arguments[0], 0, UINT32_MAX);
+    if (!id) return Error{"A hair is named by its number from 0, not \"" + arguments[0] + "\"."};
+    const auto hair = explainHair(context.groom, context.surfaces.get(context.groom.mesh), *id, 0, progress);
+    if (!hair) return hair.error();
+    return explanationText(*hair);
 }
 
 Result<std::string> clearGuides(CommandContext& context, Arguments arguments, Progress&) {
@@ -121,6 +165,16 @@ void addEditCommands(std::vector<Command>& list) {
     list.push_back({"info", "info", "Prints what the groom holds.", false, info});
     list.push_back({"place-guides", "place-guides [COUNT] [LENGTH]",
                     "Replaces all guides by evenly spread ones that stand up, LENGTH metres long.", true, place});
+    list.push_back({"place-guides-on-vertices", "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP]",
+                    "Replaces all guides by one on every vertex where hair grows, and more in triangles that are too "
+                    "large for as many a square metre; their segments grow longer from root to tip.",
+                    true, placeOnVertices});
+    list.push_back({"tessellate-guides", "tessellate-guides SEGMENTS [GROUP]",
+                    "Gives the guides and hairs of a group another number of segments, along smooth curves through the "
+                    "points of the guides.",
+                    true, tessellate});
+    list.push_back(
+        {"explain", "explain HAIR", "Says why a hair is as it is: its guides, maps and every step.", false, explain});
     list.push_back({"clear-guides", "clear-guides", "Deletes all guides.", true, clearGuides});
     list.push_back(
         {"fill-map", "fill-map NAME VALUE [SIZE]", "Fills a map with one number, or makes it.", true, fillMap});

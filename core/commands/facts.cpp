@@ -60,8 +60,8 @@ std::string groomFactsText(const Groom& groom) {
     }
     for (const Parting& parting : *groom.partings) {
         line("parting", std::to_string(parting.id) + (parting.name.empty() ? "" : ", " + parting.name) + ", " +
-                            std::to_string(parting.points.size()) + " points, " +
-                            metres(partingLength(mesh, parting)) + " m");
+                            std::to_string(parting.points.size()) + " points, " + metres(partingLength(mesh, parting)) +
+                            " m");
     }
     line("guides", std::to_string(groom.guides.count()));
     line("hairs", std::to_string(groom.counts->hairs));

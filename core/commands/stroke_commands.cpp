@@ -91,7 +91,7 @@ Result<std::string> stroke(CommandContext& context, Arguments arguments, Progres
 Result<std::string> brush(CommandContext& context, Arguments arguments, Progress&) {
     constexpr const char* usage =
         "brush radius|strength|value NUMBER, brush reach projected|spherical, brush map NAME, or brush "
-        "mirror|front-only|keep-length|keep-outside|invert on|off";
+        "mirror|front-only|keep-length|keep-outside|partings|invert on|off";
     if (arguments.size() != 2) return usageError(usage);
     const std::string& name = arguments[0];
     const std::string& value = arguments[1];
@@ -120,6 +120,7 @@ Result<std::string> brush(CommandContext& context, Arguments arguments, Progress
                          : name == "front-only"   ? &settings.frontOnly
                          : name == "keep-length"  ? &settings.keepLength
                          : name == "keep-outside" ? &settings.keepOutside
+                         : name == "partings"     ? &settings.respectPartings
                          : name == "invert"       ? &settings.invert
                                                   : nullptr;
     const auto wish = switchFrom(value);

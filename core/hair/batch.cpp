@@ -59,7 +59,7 @@ std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const Hai
 }
 
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress) {
-    batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress);
+    batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress, std::move(batch.bindings));
     batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress);
     batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
     if (progress.cancelled()) return;

@@ -19,7 +19,9 @@ struct Bindings {
     std::vector<float> matrices;        ///< weight x turn from the guide's surface to the hair's, rows, 9 a place
 };
 
-/// Binds `roots` (empty when cancelled).
-Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const HairRoot> roots, Progress& progress);
+/// Binds `roots` (nothing useful when cancelled). Neighbouring roots should follow one another, as hairs do. `old`
+/// gives its memory.
+Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const HairRoot> roots, Progress& progress,
+                   Bindings old = {});
 
 }  // namespace whorl

@@ -78,6 +78,12 @@ bool isTaper(const Modifier& modifier) {
     return std::holds_alternative<TaperParams>(modifier.params);
 }
 
+// Triangles of guides cover the growing parts.
+bool usesTriangles(const Groom& groom) {
+    return std::any_of(groom.groups->begin(), groom.groups->end(),
+                       [](const Group& group) { return group.params.general.fromTriangle(); });
+}
+
 }  // namespace
 
 bool sameDensity(const Groom& a, const Groom& b) {
@@ -97,8 +103,10 @@ bool sameBindings(const Groom& a, const Groom& b) {
            allGroups(a, b,
                      [](const HairParams& x, const HairParams& y) {
                          return x.general.samples == y.general.samples &&
-                                x.general.interpolation == y.general.interpolation;
+                                x.general.interpolation == y.general.interpolation &&
+                                x.general.guidesFrom == y.general.guidesFrom;
                      }) &&
+           (!usesTriangles(a) || a.partSettings.sameAs(b.partSettings) || *a.partSettings == *b.partSettings) &&
            sameGuideRoots(a.guides, b.guides);
 }
 

@@ -10,7 +10,7 @@ namespace whorl {
 bool sameDensity(const Groom& a, const Groom& b);
 
 /// True when bindings made for one serve the other, given the same roots: same guide roots, partings, samples,
-/// interpolation.
+/// interpolation and choice of guides.
 bool sameBindings(const Groom& a, const Groom& b);
 
 /// True when every group has the same number of segments.

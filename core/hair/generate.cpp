@@ -181,7 +181,8 @@ void Generator::State::renewBatch(const HairLookups& lookups, const HairWish& wi
         batchValid = !progress.cancelled();
         return;
     }
-    if (bindingsChanged) batch.bindings = bindHairs(groom, parts.index, batch.roots, progress);
+    if (bindingsChanged)
+        batch.bindings = bindHairs(groom, parts.index, batch.roots, progress, std::move(batch.bindings));
     if (shapeChanged || lookChanged) batch.traits = traitsFor(lookups.traits, batch.roots, wish.lod, progress);
     if (clumpsRebuilt) batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
     if (progress.cancelled()) return;

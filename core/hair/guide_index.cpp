@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/guide_index.h"
 
+#include "core/hair/guide_triangles.h"
 #include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
@@ -38,29 +39,6 @@ struct Candidate {
     }
 };
 
-// Turns squared distances into weights. `beyond` is the squared distance to the next guide, or below zero.
-void setWeights(std::span<const Candidate> chosen, float beyond, std::span<Neighbour> out) {
-    std::array<double, GuideIndex::maxNeighbours> weights{};
-    double sum = 0;
-    const double reach = std::sqrt(double{beyond});
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const double d = std::sqrt(double{chosen[i].squared});
-        if (chosen[0].squared <= 0.0f)
-            weights[i] = chosen[i].squared <= 0.0f ? 1.0 : 0.0;
-        else if (beyond < 0.0f)
-            weights[i] = 1.0 / (d * d);
-        else
-            weights[i] = (reach - d) * (reach - d) / (reach * reach * d * d);
-        sum += weights[i];
-    }
-    // All as far as the next one: no one is nearer.
-    if (!(sum > 0)) {
-        std::fill_n(weights.begin(), chosen.size(), 1.0);
-        sum = static_cast<double>(chosen.size());
-    }
-    for (std::size_t i = 0; i < chosen.size(); ++i) out[i].weight = static_cast<float>(weights[i] / sum);
-}
-
 }  // namespace
 
 struct GuideIndex::Tree {
@@ -87,6 +65,11 @@ GuideIndex::GuideIndex(const Groom& groom) : m_partings(*groom.mesh, *groom.part
     for (const auto& tree : m_trees)
         if (!tree->cloud.roots.empty())
             tree->tree = std::make_unique<KdTree>(3, tree->cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
+    m_triangles.resize(m_trees.size());
+    for (std::size_t g = 0; g < m_trees.size(); ++g) {
+        if (!(*groom.groups)[g].params.general.fromTriangle() || m_trees[g]->cloud.roots.empty()) continue;
+        m_triangles[g] = std::make_unique<GuideTriangles>(groom, *this, g);
+    }
 }
 
 GuideIndex::GuideIndex(std::vector<GuideRoot> roots, const GuideIndex&) {
@@ -164,9 +147,102 @@ std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, co
             const GuideRoot& root = roots[candidates[i].root];
             out[i] = {root.guide, 0.0f, &root};
         }
-        setWeights({candidates, given}, count > given ? candidates[given].squared : -1.0f, out);
+        std::array<float, maxNeighbours> distances, weights;
+        for (std::size_t i = 0; i < given; ++i) distances[i] = candidates[i].squared;
+        shepardWeights({distances.data(), given}, count > given ? candidates[given].squared : -1.0f, weights);
+        for (std::size_t i = 0; i < given; ++i) out[i].weight = weights[i];
         return given;
     }
+}
+
+std::size_t GuideIndex::guidesOf(std::size_t group, const GeneralParams& general, const glm::vec3& position,
+                                 const glm::vec3& normal, std::span<Neighbour> out) const {
+    const std::size_t count = general.fromTriangle() ? inTriangle(group, position, normal, out) : 0;
+    return count > 0 ? count : nearest(group, position, normal, general.samples, out);
+}
+
+std::size_t GuideIndex::inTriangle(std::size_t group, const glm::vec3& position, const glm::vec3& normal,
+                                   std::span<Neighbour> out) const {
+    const GuideTriangles* triangles = trianglesOf(group);
+    const auto place = triangles ? triangles->nearest(position, normal) : std::nullopt;
+    if (!place) return 0;
+    const std::span<const GuideRoot> roots = rootsOf(group);
+    std::size_t count = 0;
+    float sum = 0.0f;
+    for (int corner = 0; corner < 3; ++corner) {
+        const GuideRoot& root = roots[place->corners[corner]];
+        const float detour = m_partings.detour({position, normal}, {root.position, root.normal});
+        const float weight = detour == PartingIndex::separate ? 0.0f : place->weights[corner] / (detour * detour);
+        if (!(weight > 0.0f)) continue;
+        out[count++] = {root.guide, weight, &root};
+        sum += weight;
+    }
+    for (std::size_t i = 0; i < count; ++i) out[i].weight /= sum;
+    return count;
+}
+
+const GuideTriangles* GuideIndex::trianglesOf(std::size_t group) const {
+    return group < m_triangles.size() ? m_triangles[group].get() : nullptr;
+}
+
+std::uint32_t GuideIndex::nearestRoot(std::size_t group, const glm::vec3& position) const {
+    const float query[3] = {position.x, position.y, position.z};
+    std::uint32_t found = 0;
+    float squared = 0.0f;
+    m_trees[group]->tree->knnSearch(query, 1, &found, &squared);
+    return found;
+}
+
+float GuideIndex::reach(std::size_t group, const glm::vec3& position, std::size_t count) const {
+    constexpr std::size_t most = maxNeighbours + 1;
+    std::array<std::uint32_t, most> found;
+    std::array<float, most> squared;
+    const float query[3] = {position.x, position.y, position.z};
+    m_trees[group]->tree->knnSearch(query, std::min(count, most), found.data(), squared.data());
+    return std::sqrt(squared[std::min(count, most) - 1]);
+}
+
+void GuideIndex::within(std::size_t group, const glm::vec3& position, float radius,
+                        std::vector<std::uint32_t>& found) const {
+    struct Collect {
+        std::vector<std::uint32_t>& found;
+        float squared;
+        // What nanoflann asks of a set of results.
+        std::size_t size() const { return found.size(); }
+        bool full() const { return true; }
+        bool addPoint(float distance, std::uint32_t index) {
+            if (distance < squared) found.push_back(index);
+            return true;
+        }
+        float worstDist() const { return squared; }
+        void sort() const {}
+    };
+    found.clear();
+    Collect collect{found, radius * radius};
+    const float query[3] = {position.x, position.y, position.z};
+    m_trees[group]->tree->findNeighbors(collect, query, {});
+}
+
+void shepardWeights(std::span<const float> squared, float beyond, std::span<float> weights) {
+    std::array<double, GuideIndex::maxNeighbours> raw{};
+    double sum = 0;
+    const double reach = std::sqrt(double{beyond});
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        const double d = std::sqrt(double{squared[i]});
+        if (squared[0] <= 0.0f)
+            raw[i] = squared[i] <= 0.0f ? 1.0 : 0.0;
+        else if (beyond < 0.0f)
+            raw[i] = 1.0 / (d * d);
+        else
+            raw[i] = (reach - d) * (reach - d) / (reach * reach * d * d);
+        sum += raw[i];
+    }
+    // All as far as the next one: no one is nearer.
+    if (!(sum > 0)) {
+        std::fill_n(raw.begin(), squared.size(), 1.0);
+        sum = static_cast<double>(squared.size());
+    }
+    for (std::size_t i = 0; i < squared.size(); ++i) weights[i] = static_cast<float>(raw[i] / sum);
 }
 
 bool sameGuideRoots(const GuideSet& a, const GuideSet& b) {

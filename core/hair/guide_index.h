@@ -29,7 +29,10 @@ struct Neighbour {
     const GuideRoot* root = nullptr;
 };
 
-/// A KD-tree of guide roots for each group. Immutable once built; any thread may ask.
+class GuideTriangles;
+
+/// A KD-tree of guide roots for each group, and triangles of guides for groups that want them. Immutable once built;
+/// any thread may ask.
 class GuideIndex {
 public:
     static constexpr std::size_t maxNeighbours = 20;
@@ -60,14 +63,40 @@ public:
     std::size_t nearest(std::size_t group, const glm::vec3& position, const glm::vec3& normal, int samples,
                         std::span<Neighbour> out) const;
 
+    /// The guides that a hair of the group has by the group's parameters: the nearest ones, or those of the triangle.
+    std::size_t guidesOf(std::size_t group, const GeneralParams& general, const glm::vec3& position,
+                         const glm::vec3& normal, std::span<Neighbour> out) const;
+
+    /// The up to three guides of the group whose triangle is nearest to the root (GuideTriangles), with barycentric
+    /// weights. Guides beyond a parting count less the longer the way round its end is, and not at all where it
+    /// separates. Beyond the outermost guides a hair has the two of the triangles' border, or one. Returns how many
+    /// were written: none without triangles or when all three are separated. `out` has room for three.
+    std::size_t inTriangle(std::size_t group, const glm::vec3& position, const glm::vec3& normal,
+                           std::span<Neighbour> out) const;
+    /// Null for groups without.
+    const GuideTriangles* trianglesOf(std::size_t group) const;
+
+    /// Place in rootsOf(group), which must not be empty, of the guide nearest to `position`.
+    std::uint32_t nearestRoot(std::size_t group, const glm::vec3& position) const;
+    /// Euclidean distance from `position` to the guide of the group that is the `count`-th nearest. 1 <= count <=
+    /// rootsOf(group).size().
+    float reach(std::size_t group, const glm::vec3& position, std::size_t count) const;
+    /// Sets `found` to the places in rootsOf(group) of all guides within `radius`, in no order.
+    void within(std::size_t group, const glm::vec3& position, float radius, std::vector<std::uint32_t>& found) const;
+
 private:
     struct Tree;
     std::vector<std::unique_ptr<Tree>> m_trees;
+    std::vector<std::unique_ptr<GuideTriangles>> m_triangles;  // null for groups without
     PartingIndex m_partings;
 };
 
 /// Squared distance between roots as neighbours are chosen by it: see GuideIndex::nearest.
 float rootDistanceSquared(const glm::vec3& position, const glm::vec3& normal, const GuideRoot& guide);
+
+/// Weights of GuideIndex::nearest for squared distances, nearest first (at most maxNeighbours). `beyond`: the squared
+/// distance to the next guide, or below zero.
+void shepardWeights(std::span<const float> squared, float beyond, std::span<float> weights);
 
 /// True when both have the same roots, ids and groups in the same order: an index of one serves the other.
 bool sameGuideRoots(const GuideSet& a, const GuideSet& b);

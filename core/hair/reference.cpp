@@ -41,25 +41,39 @@ std::vector<float> easeOf(int segments) {
     return ease;
 }
 
-// The curve of a hair before strands and cutting.
-std::vector<glm::vec3> referenceCurve(const Reference& r, const HairRoot& root, const HairTraits& traits) {
+// The curve of a hair before strands and cutting. `stages`, when not null, gets it after each step.
+std::vector<glm::vec3> referenceCurve(const Reference& r, const HairRoot& root, const HairTraits& traits,
+                                      std::vector<HairStage>* stages = nullptr) {
     const GeneralParams& general = (*r.groom.groups)[root.group].params.general;
-    std::vector<glm::vec3> curve =
-        referenceInterpolation(r.groom, r.index, root, root.position + root.normal * traits.displacement, traits.scale);
+    const glm::vec3 start = root.position + root.normal * traits.displacement;
+    std::vector<glm::vec3> curve = referenceInterpolation(r.groom, r.index, root, start, traits.scale);
+    if (curve.empty()) return curve;
+    const auto done = [&](const char* stage) {
+        if (stages) stages->push_back({stage, curve});
+    };
+    if (stages) stages->push_back({"interpolation", referenceInterpolation(r.groom, r.index, root, start, 1.0f)});
+    done("scale");
     const glm::vec3 frizz(traits.frizz[0], traits.frizz[1], traits.frizz[2]);
     const glm::vec3 frequency(traits.kinkFrequency[0], traits.kinkFrequency[1], traits.kinkFrequency[2]);
     const std::vector<float> ease = easeOf(general.segments);
+    // Both pushes start from the curve before either.
+    std::vector<glm::vec3> kinks;
     for (std::size_t v = 0; v < curve.size(); ++v) {
         const float along = static_cast<float>(v) / static_cast<float>(general.segments);
         const glm::vec3 place = curve[v] * frequency + r.lookup.kinkOffset();
         glm::vec3 kink(0.0f);
         perlinVector(place.x, place.y, place.z, &kink.x);
-        curve[v] += ease[v] * (glm::mix(traits.frizzRoot, traits.frizzTip, along) * frizz +
-                               glm::mix(traits.kinkRoot, traits.kinkTip, along) * kink);
+        kinks.push_back(ease[v] * glm::mix(traits.kinkRoot, traits.kinkTip, along) * kink);
+        curve[v] += ease[v] * glm::mix(traits.frizzRoot, traits.frizzTip, along) * frizz;
     }
-    if (curve.empty()) return curve;
-    modifyReference({r.groom, r.index, r.lookup, r.chain, r.clumps}, root, traits, ease, curve);
-    if (general.keepOutside && r.skin) r.skin->keepOutside(curve, ease);
+    done("frizz");
+    for (std::size_t v = 0; v < curve.size(); ++v) curve[v] += kinks[v];
+    done("kink");
+    modifyReference({r.groom, r.index, r.lookup, r.chain, r.clumps}, root, traits, ease, curve, stages);
+    if (general.keepOutside && r.skin) {
+        r.skin->keepOutside(curve, ease);
+        done("keep outside");
+    }
     return curve;
 }
 
@@ -153,6 +167,23 @@ std::vector<glm::vec3> referenceNormals(std::span<const glm::vec3> points, const
         before = tangent;
     }
     return normals;
+}
+
+std::vector<HairStage> referenceStages(const Groom& groom, const GuideIndex& index, const HairRoot& root,
+                                       const TraitLookup& lookup, const SkinGuard* skin, Progress& progress) {
+    const ModifierChain chain(groom);
+    ClumpSet clumps;
+    clumps.build(groom, chain, index, GuideShapes(groom), true, progress);
+    std::vector<HairStage> stages;
+    const HairTraits traits = lookup.at(root);
+    const std::vector<glm::vec3> curve =
+        referenceCurve({groom, index, lookup, chain, clumps, skin}, root, traits, &stages);
+    const CutEnd end = cutEnd(traits.cut, (*groom.groups)[root.group].params.general.segments);
+    if (curve.empty() || end.vertices == 0) return stages;
+    std::vector<glm::vec3> points(curve.begin(), curve.begin() + end.vertices);
+    points.back() = strandPoint(curve, end.parameter);
+    stages.push_back({"cut", std::move(points)});
+    return stages;
 }
 
 Result<Strands> generateReference(const Groom& groom, std::shared_ptr<const Surface> surface,

@@ -237,7 +237,7 @@ std::vector<glm::vec3> referenceInterpolation(const Groom& groom, const GuideInd
                                               const glm::vec3& start, float scale) {
     const GeneralParams& general = (*groom.groups)[root.group].params.general;
     std::array<Neighbour, GuideIndex::maxNeighbours> neighbours;
-    const std::size_t count = index.nearest(root.group, root.position, root.normal, general.samples, neighbours);
+    const std::size_t count = index.guidesOf(root.group, general, root.position, root.normal, neighbours);
     if (count == 0) return {};
     const auto segments = static_cast<std::size_t>(general.segments);
     Curve curve(segments + 1, start);
@@ -255,7 +255,7 @@ std::vector<glm::vec3> referenceInterpolation(const Groom& groom, const GuideInd
 }
 
 void modifyReference(const ReferenceModifiers& with, const HairRoot& root, const HairTraits& traits,
-                     std::span<const float> ease, std::vector<glm::vec3>& curve) {
+                     std::span<const float> ease, std::vector<glm::vec3>& curve, std::vector<HairStage>* stages) {
     std::uint64_t lock = ModifierChain::hairKey(root.id);
     for (const ModifierStep& step : with.chain.shapes(root.group)) {
         Work work{with, step, root, traits, ease, lock};
@@ -264,7 +264,9 @@ void modifyReference(const ReferenceModifiers& with, const HairRoot& root, const
         with.chain.random(step, step.shared ? lock : ModifierChain::hairKey(root.id), work.random);
         using Run = void (*)(Work&, Curve&);
         constexpr Run runs[modifierKindCount] = {clump, curl, noise, bend, length, smooth, straighten, nullptr};
+        if (!runs[step.kind]) continue;
         runs[step.kind](work, curve);
+        if (stages) stages->push_back({std::string(modifierKinds()[step.kind].id), curve});
     }
 }
 

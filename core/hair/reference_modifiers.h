@@ -4,6 +4,7 @@
 
 #include "core/hair/guide_index.h"
 #include "core/hair/modifiers/centres.h"
+#include "core/hair/reference.h"
 #include "core/hair/roots.h"
 #include "core/hair/traits.h"
 
@@ -27,9 +28,10 @@ struct ReferenceModifiers {
     const ClumpSet& clumps;  ///< places of the centres; their curves are made anew
 };
 
-/// All modifiers of the hair's group, in their order.
+/// All modifiers of the hair's group, in their order. `stages`, when not null, gets the curve after each.
 void modifyReference(const ReferenceModifiers& with, const HairRoot& root, const HairTraits& traits,
-                     std::span<const float> ease, std::vector<glm::vec3>& curve);
+                     std::span<const float> ease, std::vector<glm::vec3>& curve,
+                     std::vector<HairStage>* stages = nullptr);
 
 /// Points of one member of the strand around a base hair with these points and normals, before the cut.
 std::vector<glm::vec3> referenceMember(std::span<const glm::vec3> base, std::span<const glm::vec3> normals,

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double rootsPerPiece = 4096.0;
 
-HairRoot rootOf(const RootSource& source, std::uint32_t id, const SurfacePoint& point) {
+}  // namespace
+
+HairRoot rootAt(const RootSource& source, std::uint32_t id, const SurfacePoint& point) {
     HairRoot root;
     root.id = id;
     root.point = point;
@@ -21,8 +23,6 @@ HairRoot rootOf(const RootSource& source, std::uint32_t id, const SurfacePoint& 
     root.group = static_cast<std::uint8_t>(source.density.groupAt(root.uv));
     return root;
 }
-
-}  // namespace
 
 RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share) {
     const auto seed = static_cast<std::uint32_t>(counts.seed);
@@ -59,7 +59,7 @@ std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progr
             std::vector<HairRoot>& roots = made[piece];
             roots.reserve(list.count());
             for (std::size_t i = 0; i < list.count(); ++i) {
-                const HairRoot root = rootOf(source, list.id(i), list.point(i));
+                const HairRoot root = rootAt(source, list.id(i), list.point(i));
                 if (source.density.at(root.point.triangle, root.uv) > 0.0f) roots.push_back(root);
             }
         }

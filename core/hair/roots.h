@@ -30,6 +30,9 @@ struct RootSource {
     RootRequest request;
 };
 
+/// The root of hair `id` at its place.
+HairRoot rootAt(const RootSource& source, std::uint32_t id, const SurfacePoint& point);
+
 /// The request that gives `share` of `hairs` hairs on the groom as `sampler` measured it, or on the groom as it was
 /// before paint (counts.density_total). Where that is not pinned the hairs are counted, so keep the answer.
 RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share = 1.0);

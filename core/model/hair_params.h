@@ -83,12 +83,15 @@ struct CountParams {
 
 inline constexpr std::array<std::string_view, 2> interpolationNames{"Rotated to the surface", "As they are"};
 
+inline constexpr std::array<std::string_view, 2> guidesFromNames{"Nearest guides", "Triangle of guides"};
+
 /// Where hairs grow, how they follow the guides, how long and thick they are.
 struct GeneralParams {
     int segments = 15;
     Driven density{1.0f};
     int samples = 3;
     Choice interpolation{};
+    Choice guidesFrom{};
     Driven cut{1.0f};
     Driven scale{1.0f};
     Driven randomScale{0.0f};
@@ -125,6 +128,12 @@ struct GeneralParams {
                         .tip = "Rotated: guide shapes turn with the skin between guide and hair. As they are: no turn.",
                         .choices = interpolationNames},
               self.interpolation);
+        visit(ParamInfo{.id = "guides_from",
+                        .label = "Guides from",
+                        .tip = "Nearest: a mix of the guides around. Triangle: the three guides that a hair stands "
+                               "between.",
+                        .choices = guidesFromNames},
+              self.guidesFrom);
         visit(ParamInfo{.id = "cut", .label = "Cut", .tip = "Where along itself a hair ends. Zero: no hair."},
               self.cut);
         visit(
@@ -175,6 +184,7 @@ struct GeneralParams {
                         .tip = "Exported files hold the curves' normals. Without them files are smaller."},
               self.writeNormals);
     }
+    bool fromTriangle() const { return guidesFrom.index == 1; }
     bool operator==(const GeneralParams&) const = default;
 };
 

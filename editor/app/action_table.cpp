@@ -64,7 +64,9 @@ void addGroom(std::vector<ActionInfo>& table) {
                      tr("Spreads more guides between those that are there, up to the number of guides."), menu, A::Push,
                      false, ""});
     table.push_back(
-        {"groom.clear_guides", tr("&Remove All Guides"), "", tr("Removes every guide."), menu, A::Push, line, ""});
+        {"groom.clear_guides", tr("&Remove All Guides"), "", tr("Removes every guide."), menu, A::Push, false, ""});
+    table.push_back({"groom.clear_partings", tr("Remove All P&artings"), "", tr("Removes every parting."), menu,
+                     A::Push, line, ""});
     table.push_back({"groom.paint_density", tr("Paint &Density"), "Ctrl+D",
                      tr("Makes a density map for the active group if it has none, and picks the paint brush."), menu,
                      A::Push, false, "paint"});

@@ -31,6 +31,7 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
     actions.on("groom.place_guides", this, [this] { placeGuides(m_document.committed().counts->guides, false); });
     actions.on("groom.add_guides", this, [this] { placeGuides(m_document.committed().counts->guides, true); });
     actions.on("groom.clear_guides", this, [this] { clearGuides(); });
+    actions.on("groom.clear_partings", this, [this] { clearPartings(); });
     actions.on("groom.paint_density", this, [this] { paintDensity(); });
     actions.on("groom.new_seed", this, [this] { newSeed(); });
     for (const BrushInfo& brush : brushes()) {
@@ -53,6 +54,7 @@ void GroomActions::refresh() {
                                 row.id.startsWith("file.export") || row.id == "file.render";
         if (needsGroom) m_actions.get(row.id).setEnabled(open);
     }
+    m_actions.get("groom.clear_partings").setEnabled(!m_document.groom().partings->empty());
     m_actions.get("groom.clear_guides").setEnabled(!m_document.groom().guides.empty());
     const auto name = [&](const char* id, const QString& verb, const QString& what) {
         m_actions.get(id).setText(what.isEmpty() ? verb : QString("%1 %2").arg(verb, what));
@@ -86,6 +88,12 @@ void GroomActions::clearGuides() {
     Groom after = m_document.committed();
     after.guides.clear();
     m_document.edit(std::move(after), tr("Remove all guides"));
+}
+
+void GroomActions::clearPartings() {
+    Groom after = m_document.committed();
+    after.partings = {};
+    m_document.edit(std::move(after), tr("Remove all partings"));
 }
 
 void GroomActions::paintDensity() {

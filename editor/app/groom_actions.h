@@ -24,6 +24,7 @@ public:
     /// Spreads `count` guides; `keep`: beside those that are there.
     bool placeGuides(int count, bool keep);
     void clearGuides();
+    void clearPartings();
     /// Picks the paint brush with the density map of the active group; makes the map when there is none.
     void paintDensity();
     void newSeed();

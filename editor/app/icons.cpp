@@ -157,6 +157,17 @@ const QHash<QString, Draw>& drawings() {
              l.lineTo(15, 19);
              arrowHead(l, {20.5, 9}, 4, 0);
          }},
+        {"parting",
+         [](QPainterPath& l, QPainterPath&) {
+             polyline(l, {QPointF(12, 3), QPointF(12, 21)});
+             for (int i = 0; i < 3; ++i) {
+                 const double y = 5 + 5.5 * i;
+                 l.moveTo(9.5, y);
+                 l.cubicTo(6.5, y, 4, y + 2, 3.5, y + 5);
+                 l.moveTo(14.5, y);
+                 l.cubicTo(17.5, y, 20, y + 2, 20.5, y + 5);
+             }
+         }},
         {"mirror",
          [](QPainterPath& l, QPainterPath& f) {
              for (int i = 0; i < 4; ++i) polyline(l, {QPointF(12, 3 + 5 * i), QPointF(12, 5.5 + 5 * i)});

@@ -15,6 +15,7 @@ BrushSettings BrushOptions::settings(bool invert) const {
     brush.frontOnly = frontOnly;
     brush.keepLength = keepLength;
     brush.keepOutside = keepOutside;
+    brush.respectPartings = respectPartings;
     brush.pressureSize = pressureSize;
     brush.pressureStrength = pressureStrength;
     brush.invert = invert;

@@ -23,6 +23,7 @@ struct BrushOptions {
     bool frontOnly = true;
     bool keepLength = true;
     bool keepOutside = true;
+    bool respectPartings = true;
     bool pressureSize = false;
     bool pressureStrength = true;
 
@@ -65,6 +66,10 @@ struct BrushOptions {
                         .label = "Keep outside the skin",
                         .tip = "Combing does not push guides into the model."},
               self.keepOutside);
+        visit(ParamInfo{.id = "respect_partings",
+                        .label = "Stay on one side of partings",
+                        .tip = "Leaves guides alone beyond the partings around the place where the stroke began."},
+              self.respectPartings);
         visit(ParamInfo{.id = "pressure_size",
                         .label = "Pen pressure sets size",
                         .tip = "Pressing harder makes the brush larger."},

@@ -2,6 +2,7 @@
 // Generation against the scalar reference: from nothing, cached, and after a stroke.
 #include "core/base/parallel.h"
 #include "core/base/simd.h"
+#include "core/hair/bindings.h"
 #include "core/hair/generate.h"
 #include "core/hair/outside.h"
 #include "core/hair/reference.h"
@@ -171,11 +172,54 @@ BenchRow afterStroke(const std::string& name, Groom groom, std::uint32_t hairs, 
     return row;
 }
 
+// Hairs to guides, together against one query after another.
+BenchRow binding(const std::string& name, const Groom& groom, std::uint32_t hairs, unsigned threads) {
+    const ThreadLimit limit(threads);
+    Progress progress;
+    const DensityLookup density(groom);
+    const auto sampler = SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
+    const std::vector<HairRoot> roots = makeRoots({*groom.mesh, *sampler, density, hairs, 1}, {0, hairs}, progress);
+    const GuideIndex index(groom);
+    const int samples = (*groom.groups)[0].params.general.samples;
+    Bindings bindings;
+    std::vector<Neighbour> plain(roots.size() * static_cast<std::size_t>(samples));
+    std::vector<glm::mat3> turns(plain.size());
+    const Medians seconds = interleaved(
+        [&] { bindings = bindHairs(groom, index, roots, progress, std::move(bindings)); },
+        [&] {
+            parallelFor(roots.size(), 1024, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const std::size_t first = i * static_cast<std::size_t>(samples);
+                    const std::size_t count =
+                        index.nearest(0, roots[i].position, roots[i].normal, samples,
+                                      std::span(plain).subspan(first, static_cast<std::size_t>(samples)));
+                    for (std::size_t j = first; j < first + count; ++j)
+                        turns[j] = plain[j].weight * minimalRotation(plain[j].root->normal, roots[i].normal);
+                }
+            });
+        });
+    BenchRow row;
+    row.name = "hair/" + name;
+    row.seconds = seconds.ours;
+    row.baselineSeconds = seconds.baseline;
+    row.baseline = "a query of the KD-tree a hair";
+    row.items = static_cast<double>(roots.size());
+    row.unit = "hairs";
+    row.note = std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ") + simdLevelName(simdLevel());
+    for (std::size_t j = 0; j < plain.size(); ++j) {
+        row.correct = row.correct && bindings.guides[j] == plain[j].guide &&
+                      std::abs(bindings.matrices[j * 9] - turns[j][0][0]) < 3e-6f;
+    }
+    return row;
+}
+
 }  // namespace
 
 std::vector<BenchRow> benchHair() {
     const Groom plain = benchGroom(false, false), outside = benchGroom(true, false), kinked = benchGroom(true, true);
     return {
+        binding("binding 100k", plain, 100000, 1),
+        binding("binding 1600k", plain, 1600000, 1),
         fromNothing("100k x 16 from nothing", plain, 100000, 1),
         fromNothing("100k x 16 from nothing, outside the skin", outside, 100000, 1),
         fromNothing("100k x 16 from nothing, outside the skin and kinked", kinked, 100000, 1),

@@ -43,6 +43,7 @@ void addNew(CLI::App& app);
 void addSample(CLI::App& app);
 void addGenerate(CLI::App& app);
 void addHash(CLI::App& app);
+void addExplain(CLI::App& app);
 void addRender(CLI::App& app);
 void addExport(CLI::App& app);
 void addRun(CLI::App& app);

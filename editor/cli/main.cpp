@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     addSample(app);
     addGenerate(app);
     addHash(app);
+    addExplain(app);
     addRender(app);
     addExport(app);
     addRun(app);

@@ -17,13 +17,15 @@ QStringList rowsOf(const BrushInfo& brush) {
     if (brush.paintsMap)
         rows << "map"
              << "value";
-    else
+    else if (brush.id != "parting")
         rows << "reach";
     rows << "mirror"
          << "front_only";
     if (brush.id == "comb")
         rows << "keep_length"
              << "keep_outside";
+    if (!brush.paintsMap && brush.id != "parting" && brush.id != "place" && brush.id != "delete")
+        rows << "respect_partings";
     return rows << "pressure_size"
                 << "pressure_strength";
 }

@@ -3,6 +3,8 @@
 #include "core/base/random.h"
 #include "core/brushes/brush.h"
 #include "core/brushes/orbit_view.h"
+#include "core/commands/partings.h"
+#include "core/surface/parting_line.h"
 #include "tests/support/shapes.h"
 
 #include <QTest>
@@ -26,6 +28,13 @@ Groom makeBentGroom() {
             points[k] += bend * (0.02f * t * t) + bend * (0.002f * std::sin(9.0f * t));
         }
     }
+    // Lines for the parting brush to erase: round the ball a little above its middle, and over its top.
+    const Surface surface(groom.mesh);
+    const auto line = [&](const std::vector<glm::vec3>& places) {
+        if (!addParting(groom, surface, places)) qFatal("no parting");
+    };
+    line({{0.1f, 0.012f, 0}, {0, 0.012f, 0.1f}, {-0.1f, 0.012f, 0}, {0, 0.012f, -0.1f}});
+    line({{0.05f, 0.04f, 0.1f}, {0, 0.1f, 0}, {-0.05f, 0.03f, -0.1f}});
     groom.maps.set("density", Map(300, 260, 1, TexelFormat::U16, 0.5f));
     return groom;
 }
@@ -99,6 +108,8 @@ Groom reflected(const Groom& groom) {
         other.guides.setRoot(i, root);
         for (glm::vec3& p : other.guides.editPoints(i)) p.x = -p.x;
     }
+    for (Parting& parting : other.partings.edit())
+        for (SurfacePoint& point : parting.points) std::swap(point.u, point.v);
     return other;
 }
 
@@ -108,6 +119,18 @@ float largestMapDifference(const Map& a, const Map& b) {
         for (int x = 0; x < a.width(); ++x) largest = std::max(largest, std::abs(a.texel(x, y) - b.texel(x, y)));
     }
     return largest;
+}
+
+// Partings at the same places, in the same order.
+bool samePartings(const Groom& a, const Groom& b) {
+    if (a.partings->size() != b.partings->size()) return false;
+    for (std::size_t i = 0; i < a.partings->size(); ++i) {
+        const auto p = partingPositions(*a.mesh, (*a.partings)[i]), q = partingPositions(*b.mesh, (*b.partings)[i]);
+        if (p.size() != q.size()) return false;
+        for (std::size_t k = 0; k < p.size(); ++k)
+            if (glm::length(p[k] - q[k]) > 2e-5f) return false;
+    }
+    return true;
 }
 
 float largestGuideDifference(const GuideSet& a, const GuideSet& b) {
@@ -226,6 +249,7 @@ private Q_SLOTS:
         const Groom expected = reflected(stroked(brush(), groom, view, how(), across));
         QCOMPARE(there.guides.count(), expected.guides.count());
         QVERIFY(largestGuideDifference(there.guides, expected.guides) < 2e-5f);
+        QVERIFY(samePartings(there, expected));
         QVERIFY(largestMapDifference(*there.maps.find("density"), *expected.maps.find("density")) < 1e-3f);
     }
 

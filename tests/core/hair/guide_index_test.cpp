@@ -2,6 +2,7 @@
 #include "core/hair/guide_index.h"
 
 #include "core/base/random.h"
+#include "core/hair/bindings.h"
 #include "core/surface/surface_point.h"
 #include "tests/support/shapes.h"
 
@@ -71,6 +72,53 @@ private Q_SLOTS:
                 sum += found[j].weight;
             }
             QVERIFY(std::abs(sum - 1.0f) < 1e-5f);
+        }
+    }
+
+    // Hairs bound together, in crowds and alone, beside partings and across groups, as one after another.
+    void bindingsAreThoseOfSingleQueries() {
+        for (const int guides : {0, 1, 3, 40, 700, 6000}) {
+            Groom groom = scattered(guides, 12);
+            groom.groups.edit()[0].params.general.samples = 4;
+            groom.groups.edit()[1].params.general.samples = 9;
+            groom.groups.edit()[1].params.general.interpolation.index = 1;
+            if (guides == 700) groom.partings.edit() = {{1, "", {{100, 0.2f, 0.2f}, {160, 0.2f, 0.2f}, {400, 0, 0}}}};
+            const GuideIndex index(groom);
+            std::vector<HairRoot> roots;
+            for (std::uint32_t i = 0; i < 4000; ++i) {
+                HairRoot root;
+                root.id = i;
+                // Runs of neighbours, and jumps between them.
+                const auto run = i / 100;
+                const glm::vec3 place = randomPlace(7, run) + 0.05f * randomPlace(8, i) * randomFloat(9, run, 0);
+                root.normal = glm::normalize(place);
+                root.position = root.normal * 0.1f;
+                root.group = randomFloat(9, run, 1) < 0.3f ? static_cast<std::uint8_t>(i % 2) : 0;
+                roots.push_back(root);
+            }
+            // A hair at a guide's root, and one where the skin faces the other way.
+            if (guides > 0 && !index.rootsOf(0).empty()) roots[500].position = index.rootsOf(0)[0].position;
+            roots[600].normal = -roots[600].normal;
+            Progress progress;
+            const Bindings bindings = bindHairs(groom, index, roots, progress);
+            for (std::size_t i = 0; i < roots.size(); ++i) {
+                const GeneralParams& general = (*groom.groups)[roots[i].group].params.general;
+                std::array<Neighbour, GuideIndex::maxNeighbours> found;
+                const std::size_t count =
+                    index.nearest(roots[i].group, roots[i].position, roots[i].normal, general.samples, found);
+                QCOMPARE(std::size_t{bindings.counts[i]}, count);
+                for (std::size_t j = 0; j < count; ++j) {
+                    const std::size_t place = i * bindings.perHair + j;
+                    QCOMPARE(bindings.guides[place], found[j].guide);
+                    const glm::mat3 turn = general.interpolation.index == 0
+                                               ? minimalRotation(found[j].root->normal, roots[i].normal)
+                                               : glm::mat3(1.0f);
+                    for (int row = 0; row < 3; ++row)
+                        for (int column = 0; column < 3; ++column)
+                            QVERIFY(std::abs(bindings.matrices[place * 9 + static_cast<std::size_t>(row * 3 + column)] -
+                                             found[j].weight * turn[column][row]) < 3e-6f);
+                }
+            }
         }
     }
 
