@@ -113,7 +113,9 @@ std::optional<GuideTriangles::Place> GuideTriangles::nearest(const glm::vec3& po
     }
     if (which == ~std::uint32_t{0}) return std::nullopt;
     const auto u = static_cast<float>(best.u), v = static_cast<float>(best.v);
-    return Place{m_triangles[which], {std::max(1.0f - u - v, 0.0f), u, v}};
+    // On the edge across from the first corner, what is left of its weight is rounding.
+    const float rest = 1.0f - u - v;
+    return Place{m_triangles[which], {rest > 1e-6f ? rest : 0.0f, u, v}};
 }
 
 }  // namespace whorl

@@ -34,7 +34,8 @@ public:
     std::span<const glm::uvec3> triangles() const { return m_triangles; }
 
     /// The place nearest to `position` on the triangles that face the way of `normal`: inside one, on an edge where the
-    /// skin bends there or goes on beyond the outermost guides. Continuous over edges. Nothing without triangles.
+    /// skin bends there or goes on beyond the outermost guides. Continuous over edges; beyond the outermost guides but
+    /// for where two places of their border are equally near. Nothing without triangles.
     std::optional<Place> nearest(const glm::vec3& position, const glm::vec3& normal) const;
 
 private:

