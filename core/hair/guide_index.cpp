@@ -224,17 +224,18 @@ void GuideIndex::within(std::size_t group, const glm::vec3& position, float radi
 }
 
 void shepardWeights(std::span<const float> squared, float beyond, std::span<float> weights) {
+    // (R - d) / (R d) = 1 / d - 1 / R; without a next guide R is infinite.
     std::array<double, GuideIndex::maxNeighbours> raw{};
     double sum = 0;
-    const double reach = std::sqrt(double{beyond});
+    const bool onRoot = !squared.empty() && squared[0] <= 0.0f;
+    const double farthest = beyond < 0.0f ? 0.0 : 1.0 / std::sqrt(double{beyond});
     for (std::size_t i = 0; i < squared.size(); ++i) {
-        const double d = std::sqrt(double{squared[i]});
-        if (squared[0] <= 0.0f)
+        if (onRoot) {
             raw[i] = squared[i] <= 0.0f ? 1.0 : 0.0;
-        else if (beyond < 0.0f)
-            raw[i] = 1.0 / (d * d);
-        else
-            raw[i] = (reach - d) * (reach - d) / (reach * reach * d * d);
+        } else {
+            const double nearer = 1.0 / std::sqrt(double{squared[i]}) - farthest;
+            raw[i] = nearer * nearer;
+        }
         sum += raw[i];
     }
     // All as far as the next one: no one is nearer.
@@ -242,7 +243,8 @@ void shepardWeights(std::span<const float> squared, float beyond, std::span<floa
         std::fill_n(raw.begin(), squared.size(), 1.0);
         sum = static_cast<double>(squared.size());
     }
-    for (std::size_t i = 0; i < squared.size(); ++i) weights[i] = static_cast<float>(raw[i] / sum);
+    const double share = 1.0 / sum;
+    for (std::size_t i = 0; i < squared.size(); ++i) weights[i] = static_cast<float>(raw[i] * share);
 }
 
 bool sameGuideRoots(const GuideSet& a, const GuideSet& b) {

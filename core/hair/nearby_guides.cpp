@@ -27,7 +27,12 @@ bool NearbyGuides::gather(std::size_t group, const glm::vec3& centre, float radi
     m_centre = centre;
     m_roots.clear();
     for (const std::uint32_t root : m_found) m_roots.push_back(&roots[root]);
-    std::sort(m_roots.begin(), m_roots.end(), [](const GuideRoot* a, const GuideRoot* b) { return a->id < b->id; });
+    // The nearest of the ball come first, which are those of most hairs in it: few of the others then find a place.
+    std::sort(m_roots.begin(), m_roots.end(), [&](const GuideRoot* a, const GuideRoot* b) {
+        const glm::vec3 awayA = a->position - centre, awayB = b->position - centre;
+        const float squaredA = glm::dot(awayA, awayA), squaredB = glm::dot(awayB, awayB);
+        return squaredA != squaredB ? squaredA < squaredB : a->id < b->id;
+    });
     const std::size_t padded = (m_roots.size() + guideLanes - 1) / guideLanes * guideLanes;
     for (std::vector<float>& column : m_columns) column.assign(padded, 0.0f);
     m_squared.resize(padded);
@@ -51,15 +56,19 @@ std::size_t NearbyGuides::nearest(const glm::vec3& position, const glm::vec3& no
     const float root[6] = {position.x, position.y, position.z, normal.x, normal.y, normal.z};
     WHORL_PICK(distancesToGuides)(columns, root, m_squared.data());
 
-    // The nearest ones, by insertion; guides come by id, so equal distances do as well.
+    // The nearest ones, by insertion; equal distances go by id.
     std::array<float, GuideIndex::maxNeighbours + 1> squared;
     std::array<std::uint32_t, GuideIndex::maxNeighbours + 1> which;
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < m_roots.size(); ++i) {
         const float distance = m_squared[i];
-        if (count == needed && !(distance < squared[count - 1])) continue;
+        const auto before = [&](std::size_t place) {
+            return distance < squared[place] ||
+                   (distance == squared[place] && m_roots[i]->id < m_roots[which[place]]->id);
+        };
+        if (count == needed && !before(count - 1)) continue;
         std::size_t place = count < needed ? count++ : count - 1;
-        for (; place > 0 && distance < squared[place - 1]; --place) {
+        for (; place > 0 && before(place - 1); --place) {
             squared[place] = squared[place - 1];
             which[place] = which[place - 1];
         }

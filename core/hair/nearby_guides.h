@@ -31,7 +31,7 @@ private:
     int m_samples = 0;
     glm::vec3 m_centre{0.0f};
     float m_reach = 0.0f;                   // all guides nearer than this to the centre are gathered
-    std::vector<const GuideRoot*> m_roots;  // by id
+    std::vector<const GuideRoot*> m_roots;  // nearest to the centre first
     std::vector<std::uint32_t> m_found;
     std::vector<float> m_columns[6];  // positions and normals
     std::vector<float> m_squared;
