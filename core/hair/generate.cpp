@@ -246,13 +246,17 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
         s.spare.reset();
         s.thin.reset();
         auto all = std::make_shared<Strands>();
+        bool full = false;
         Result<void> streamed = stream(
             groom, options, 1u << 16,
             [&](const Strands& block) {
-                all->append(block);
-                return true;
+                // Vertices are counted in 32 bits.
+                full = all->vertexCount() + block.vertexCount() > UINT32_MAX;
+                if (!full) all->append(block);
+                return !full;
             },
             progress);
+        if (full) return tooLarge(static_cast<std::uint64_t>(expected));
         if (!streamed) return streamed.error();
         return Shared(std::move(all));
     } catch (const std::bad_alloc&) {

@@ -177,8 +177,9 @@ BenchRow binding(const std::string& name, const Groom& groom, std::uint32_t hair
     const ThreadLimit limit(threads);
     Progress progress;
     const DensityLookup density(groom);
-    const auto sampler = SubTriangleSampler::build(*groom.mesh, density, SubTriangleSampler::Options{}, progress);
-    const std::vector<HairRoot> roots = makeRoots({*groom.mesh, *sampler, density, hairs, 1}, {0, hairs}, progress);
+    const auto sampler = RootSampler::build(groom, density, progress);
+    const RootRequest request = requestFor(*groom.counts, *sampler, static_cast<double>(hairs));
+    const std::vector<HairRoot> roots = makeRoots({*groom.mesh, *sampler, density, request}, {}, progress);
     const GuideIndex index(groom);
     const int samples = (*groom.groups)[0].params.general.samples;
     Bindings bindings;

@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/random.h"
+#include "core/sampling/candidates.h"
 #include "core/sampling/hilbert.h"
 #include "core/surface/surface_point.h"
 
@@ -14,14 +15,6 @@ namespace {
 
 // Channels of randomBits.
 enum Channel : std::uint32_t { Shift = 192, U, V };
-
-std::uint32_t reversed(std::uint32_t bits) {
-    bits = (bits << 16) | (bits >> 16);
-    bits = ((bits & 0x00ff00ffu) << 8) | ((bits >> 8) & 0x00ff00ffu);
-    bits = ((bits & 0x0f0f0f0fu) << 4) | ((bits >> 4) & 0x0f0f0f0fu);
-    bits = ((bits & 0x33333333u) << 2) | ((bits >> 2) & 0x33333333u);
-    return ((bits & 0x55555555u) << 1) | ((bits >> 1) & 0x55555555u);
-}
 
 }  // namespace
 

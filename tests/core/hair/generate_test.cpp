@@ -96,6 +96,22 @@ float steepness(const HairParams& params) {
     return steep;
 }
 
+// How far members of a strand are from their base hair.
+float memberReach(const StrandParams& strands) {
+    if (strands.hairs == 0) return 0.0f;
+    return std::abs(strands.offset.value) +
+           std::max({strands.rootSplay.value, strands.centreSplay.value, strands.tipSplay.value}) *
+               std::max(strands.aspect.value, 1.0f);
+}
+
+// The most that frames of one hair differ.
+float framesApart(const Strands& a, const Strands& b, std::size_t hair) {
+    float most = 0.0f;
+    for (std::uint32_t v = a.firstVertex[hair]; v < a.firstVertex[hair + 1]; ++v)
+        most = std::max(most, glm::distance(a.normals[v], b.normals[v]));
+    return most;
+}
+
 }  // namespace
 
 class GenerateTest : public QObject {
@@ -207,7 +223,7 @@ private Q_SLOTS:
     }
 
     void equalsTheReferenceForRandomGrooms() {
-        std::size_t hairs = 0;
+        std::size_t hairs = 0, calm = 0;
         for (std::uint32_t seed = 1; seed <= 8; ++seed) {
             const Groom groom = testing::randomGroom(seed);
             Progress progress;
@@ -221,10 +237,15 @@ private Q_SLOTS:
                 float length = 0;
                 for (std::uint32_t v = fast.firstVertex[i]; v + 1 < fast.firstVertex[i + 1]; ++v)
                     length += glm::distance(slow.positions[v], slow.positions[v + 1]);
-                const float steep = steepness((*groom.groups)[fast.groups[i]].params);
+                const HairParams& params = (*groom.groups)[fast.groups[i]].params;
+                const float steep = steepness(params);
+                // Members stand on the frames of their base hair, which multiply rounding where vertices nearly
+                // coincide.
+                const float turned = framesApart(fast, slow, i), reach = memberReach(params.strands) * turned;
+                if (turned < 1e-2f) ++calm;
                 for (std::uint32_t v = fast.firstVertex[i]; v < fast.firstVertex[i + 1]; ++v) {
                     const float apart = glm::distance(fast.positions[v], slow.positions[v]);
-                    QVERIFY2(apart <= 1e-5f * length + 2e-7f * steep,
+                    QVERIFY2(apart <= 1e-5f * length + 2e-7f * steep + reach,
                              qPrintable(QString("seed %1 hair %2: %3 of %4").arg(seed).arg(i).arg(apart).arg(length)));
                     QVERIFY(std::abs(fast.widths[v] - slow.widths[v]) < 1e-7f);
                     QVERIFY(glm::distance(fast.colours[v], slow.colours[v]) < 1e-5f);
@@ -233,6 +254,7 @@ private Q_SLOTS:
             hairs += fast.count();
         }
         QVERIFY(hairs > 500);
+        QVERIFY2(calm * 10 > hairs * 9, qPrintable(QString("%1 of %2").arg(calm).arg(hairs)));
     }
 
     void normalsAreUnitAndAcross() {
