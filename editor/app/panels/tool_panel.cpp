@@ -13,19 +13,19 @@ namespace {
 
 QStringList rowsOf(const BrushInfo& brush) {
     if (brush.paintsGroups) return {"radius", "mirror", "front_only", "pressure_size"};
+    if (brush.id == "parting") return {"radius", "mirror", "front_only"};
     QStringList rows{"radius", "strength"};
     if (brush.paintsMap)
         rows << "map"
              << "value";
-    else if (brush.id != "parting")
+    else
         rows << "reach";
     rows << "mirror"
          << "front_only";
     if (brush.id == "comb")
         rows << "keep_length"
              << "keep_outside";
-    if (!brush.paintsMap && brush.id != "parting" && brush.id != "place" && brush.id != "delete")
-        rows << "respect_partings";
+    if (!brush.paintsMap && brush.id != "place" && brush.id != "delete") rows << "respect_partings";
     return rows << "pressure_size"
                 << "pressure_strength";
 }

@@ -62,6 +62,7 @@ NumberSlider::NumberSlider(const ParamInfo& info, bool integer, QWidget* parent)
     : QWidget(parent),
       m_info(info),
       m_integer(integer),
+      m_start(info.softMax > 0 ? std::max(info.min, -info.softMax) : info.min),
       m_end(info.softMax > 0 ? info.softMax : info.max),
       m_slider(new QSlider(Qt::Horizontal, this)),
       m_box(new NumberBox(this)) {
@@ -114,7 +115,7 @@ void NumberSlider::showValue(double value) {
 
 // Logarithmic sliders keep their lowest hundredth for the smallest value, so that zero can be reached.
 int NumberSlider::positionOf(double value) const {
-    const double low = m_info.min;
+    const double low = m_start;
     if (!m_info.logarithmic) {
         const double t = (value - low) / (m_end - low);
         return static_cast<int>(std::lround(std::clamp(t, 0.0, 1.0) * steps));
@@ -126,7 +127,7 @@ int NumberSlider::positionOf(double value) const {
 }
 
 double NumberSlider::valueAt(int position) const {
-    const double low = m_info.min;
+    const double low = m_start;
     if (!m_info.logarithmic) return low + (m_end - low) * position / steps;
     if (position < steps / 100) return low;
     const double start = low > 0 ? low : m_end * 1e-4;
@@ -135,7 +136,7 @@ double NumberSlider::valueAt(int position) const {
     // Whole numbers read better with few figures: 12300 rather than 12317.
     if (!m_integer) return value;
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 2));
-    return std::clamp(std::round(value / unit) * unit, low, m_info.max);
+    return std::clamp(std::round(value / unit) * unit, m_info.min, m_info.max);
 }
 
 bool NumberSlider::eventFilter(QObject* watched, QEvent* event) {

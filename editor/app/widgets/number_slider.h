@@ -57,7 +57,8 @@ private:
 
     ParamInfo m_info;
     bool m_integer;
-    double m_end;  // where the slider ends
+    double m_start;  // where the slider begins
+    double m_end;    // where the slider ends
     double m_value = 0.0;
     bool m_moved = false;
     bool m_showing = false;
