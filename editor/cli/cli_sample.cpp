@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/hair/roots.h"
 #include "core/io/safe_file.h"
 #include "core/sampling/sub_triangle_sampler.h"
 #include "core/surface/surface_point.h"
@@ -31,6 +32,30 @@ Row rowOf(const SurfaceMesh& mesh, const SurfacePoint& root) {
     return {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
 }
 
+// As guides are placed.
+Result<std::vector<SurfacePoint>> evenPlaces(const Groom& groom, const DensityLookup& density, const Options& options) {
+    const auto sampler = SubTriangleSampler::build(*groom.mesh, density, {}, progress());
+    if (!sampler) return sampler.error();
+    if (sampler->empty()) return std::vector<SurfacePoint>{};
+    return evenRoots(*groom.mesh, *sampler, options.count, options.seed, progress());
+}
+
+// As hair grows.
+Result<std::vector<SurfacePoint>> hairPlaces(const Groom& groom, const DensityLookup& density, const Options& options) {
+    const auto sampler = RootSampler::build(groom, density, progress());
+    if (!sampler) return sampler.error();
+    std::vector<SurfacePoint> places;
+    if (sampler->empty()) return places;
+    CountParams counts;
+    counts.seed = static_cast<int>(options.seed);
+    RootList roots;
+    sampler->sample(requestFor(counts, *sampler, static_cast<double>(options.count)), {}, roots);
+    places.reserve(roots.count());
+    for (std::size_t i = 0; i < roots.count(); ++i)
+        if (density.growsAt(*groom.mesh, roots.point(i))) places.push_back(roots.point(i));
+    return places;
+}
+
 Outcome sample(const Options& options) {
     if (!options.output.ends_with(".ply")) return badUsage("-o: points are written as PLY; the name must end in .ply.");
     auto groom = open(options.mesh);
@@ -38,19 +63,12 @@ Outcome sample(const Options& options) {
     if (auto read = addDensity(*groom, options.density); !read) return badInput(read.error());
     const SurfaceMesh& mesh = *groom->mesh;
     const DensityLookup density(*groom);
-    const auto sampler = SubTriangleSampler::build(mesh, density, {}, progress());
-    if (!sampler) return badInput(sampler.error());
-    if (sampler->empty()) {
+    auto places = options.even ? evenPlaces(*groom, density, options) : hairPlaces(*groom, density, options);
+    if (!places) return badInput(places.error());
+    const std::uint64_t count = places->size();
+    if (count == 0) {
         return badInput(
             {options.mesh + ": no root has a place; the density is zero everywhere or no part grows hair."});
-    }
-    std::vector<SurfacePoint> even;
-    std::uint64_t count = options.count;
-    if (options.even) {
-        auto roots = evenRoots(mesh, *sampler, options.count, options.seed, progress());
-        if (!roots) return badInput(roots.error());
-        even = std::move(*roots);
-        count = even.size();
     }
 
     auto file = SafeFile::create(options.output);
@@ -67,7 +85,7 @@ Outcome sample(const Options& options) {
         progress().report(static_cast<float>(first) / static_cast<float>(count), "Writing points");
         rows.clear();
         for (std::uint64_t i = first; i < std::min(count, first + blockRows); ++i) {
-            rows.push_back(rowOf(mesh, options.even ? even[i] : sampler->stratifiedRoot(i, count, options.seed)));
+            rows.push_back(rowOf(mesh, (*places)[i]));
         }
         if (auto written = file->write(rows.data(), rows.size() * sizeof(Row)); !written)
             return badInput(written.error());
