@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of seed 000 (Sik, section 3.4) on meshes of the same sizes, made here: a bench needs no files.
 #include "core/base/hash.h"
+#include "core/base/parallel.h"
 #include "core/base/random.h"
+#include "core/sampling/root_sampler.h"
 #include "core/sampling/sub_triangle_sampler.h"
 #include "core/surface/surface_point.h"
 #include "editor/cli/bench.h"
@@ -184,6 +186,72 @@ BenchRow rejectionRow(double mean) {
             noteOf(sampler)};
 }
 
+std::string noteOf(const RootSampler& sampler) {
+    char text[96];
+    std::snprintf(text, sizeof(text), "%zu pieces, %.2f MB with the curve", sampler.pieceCount(),
+                  static_cast<double>(sampler.memoryBytes()) / 1e6);
+    return text;
+}
+
+// What hair grows from against random roots of the seed's distribution with its grid, both written to memory, on one
+// thread.
+BenchRow productionRow(const std::string& name, const Groom& groom, std::size_t count) {
+    const ThreadLimit limit(1);
+    const DensityLookup density(groom);
+    Progress progress;
+    const RootSampler sampler = std::move(*RootSampler::build(groom, density, progress));
+    const SubTriangleSampler reference = build(groom, density, 100.0f);
+    const RootRequest request{static_cast<double>(count) / sampler.weight(), 1};
+    RootList ours;
+    ours.reserve(count + count / 16);
+    std::vector<SurfacePoint> theirs(count);
+    const Medians medians = interleaved(
+        [&] {
+            ours.clear();
+            sampler.sample(request, {}, ours);
+        },
+        [&] {
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const std::uint64_t inside = randomBits(1, i, 1);
+                theirs[i] =
+                    reference.sample(unitDouble(randomBits(1, i, 0)), unitFloat(inside), unitFloat(inside << 24));
+            }
+        });
+    std::vector<SurfacePoint> points;
+    for (std::size_t i = 0; i < ours.count(); ++i) points.push_back(ours.point(i));
+    const std::vector<double> a = strips(*groom.mesh, points), b = strips(*groom.mesh, theirs);
+    const double asked = static_cast<double>(count), made = static_cast<double>(points.size());
+    bool correct = std::abs(made - asked) < 0.01 * asked;
+    // Chance of the random ones, and the rounding of densities to a byte.
+    for (std::size_t i = 0; i < a.size(); ++i)
+        correct = correct && std::abs(a[i] - b[i]) < 5.0 * std::sqrt(b[i] / asked) + 0.005 * b[i];
+    return {name,  medians.ours, medians.baseline, "the seed's distribution and grid",
+            asked, "roots",      correct,          noteOf(sampler)};
+}
+
+BenchRow productionPreprocessRow(const std::string& name, const Groom& groom) {
+    const ThreadLimit limit(1);
+    const DensityLookup density(groom);
+    std::string note;
+    bool correct = false;
+    const Medians medians = interleaved(
+        [&] {
+            Progress progress;
+            const RootSampler sampler = std::move(*RootSampler::build(groom, density, progress));
+            note = noteOf(sampler);
+            correct = !sampler.empty();
+        },
+        [&] { build(groom, density, 100.0f); });
+    return {name,
+            medians.ours,
+            medians.baseline,
+            "the seed's, with its grid",
+            static_cast<double>(groom.mesh->triangleCount()),
+            "triangles",
+            correct,
+            note};
+}
+
 BenchRow guidesRow() {
     const Groom groom = groomOf(bunnyRings, noise(1024, 0.5));
     const DensityLookup density(groom);
@@ -219,6 +287,13 @@ std::vector<BenchRow> benchSampler() {
     }
     for (const double mean : {0.75, 0.5, 0.25, 0.1}) rows.push_back(rejectionRow(mean));
     rows.push_back(guidesRow());
+    for (const int size : {512, 1024, 2048}) {
+        const Groom groom = groomOf(bunnyRings, noise(size, 0.5));
+        const std::string map = rounded(size, "%.0f") + "^2 noise map";
+        rows.push_back(productionRow("sampler/hair roots, 4M, " + map, groom, 4000000));
+        rows.push_back(productionRow("sampler/hair roots, 100k, " + map, groom, 100000));
+        rows.push_back(productionPreprocessRow("sampler/hair roots, preprocess, " + map, groom));
+    }
     return rows;
 }
 
