@@ -8,6 +8,19 @@
 
 namespace whorl {
 
+/// To be called when `use_count` of `pointer` is 1 and before its value is written: pairs with the release when another
+/// thread dropped the last other copy, so that its reads come before our writes.
+template <class T>
+void acquireSole(const std::shared_ptr<T>& pointer) {
+#if defined(__SANITIZE_THREAD__)
+    // The sanitizer knows no fences. Counting up and down again has the same order.
+    const std::shared_ptr<T> counted = pointer;
+#else
+    static_cast<void>(pointer);
+    std::atomic_thread_fence(std::memory_order_acquire);
+#endif
+}
+
 /// Implicitly shared value. Copying costs a counter; `edit` makes this copy its own first.
 /// A default-made Cow shares one empty T with all others, so two empty ones are `sameAs`.
 /// Thread rule: one Cow object belongs to one thread at a time; copies of it may live and be read in other threads.
@@ -26,8 +39,7 @@ public:
         if (m_data.use_count() != 1) {
             m_data = std::make_shared<T>(*m_data);
         } else {
-            // Pairs with the release when another thread dropped the last other copy: its reads come before our writes.
-            std::atomic_thread_fence(std::memory_order_acquire);
+            acquireSole(m_data);
         }
         return *m_data;
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
 
+#include "core/base/cow.h"
 #include "core/hair/batch.h"
 #include "core/hair/changes.h"
 #include "core/hair/thin.h"
 
 #include <algorithm>
-#include <atomic>
 #include <new>
 
 namespace whorl {
@@ -150,13 +150,12 @@ std::vector<std::uint32_t> Generator::State::hairsOfChangedGuides() const {
 // Makes batch.strands writable. Somebody holds them: writes go to other memory, with the same content if `keep`.
 void Generator::State::ownStrands(bool keep) {
     if (batch.strands.use_count() == 1) {
-        // Pairs with the release when another thread let go of them: its reads come before our writes.
-        std::atomic_thread_fence(std::memory_order_acquire);
+        acquireSole(batch.strands);
         return;
     }
     std::shared_ptr<Strands> other;
     if (spare && spare.use_count() == 1) {
-        std::atomic_thread_fence(std::memory_order_acquire);
+        acquireSole(spare);
         other = std::move(spare);
     } else {
         other = std::make_shared<Strands>();
