@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A user's way through the real window: open a head, paint, place, comb, cut, undo, redo, save, reopen, export, look.
 #include "core/io/document.h"
+#include "core/io/open.h"
 #include "core/io/package.h"
 #include "core/param/path.h"
 #include "editor/app/actions.h"
 #include "editor/app/exports.h"
 #include "editor/app/files.h"
+#include "editor/app/resources.h"
 #include "editor/app/viewport/viewport_area.h"
 #include "editor/app/widgets/message_bar.h"
 #include "tests/editor/window.h"
@@ -104,10 +106,19 @@ private Q_SLOTS:
         if (real) {
             head = *real;
         } else {
-            // Without the data folder a ball stands for the head.
-            head = m_folder / "ball.whorl";
+            // Without the data folder: the head that ships with Whorl, as if its mesh had just been opened.
+            const std::vector<std::filesystem::path> samples = sampleFiles();
+            const auto bust = std::ranges::find_if(samples, [](const auto& f) { return f.stem() == "bust"; });
+            QVERIFY2(bust != samples.end(), "the samples are built with the program");
+            head = m_folder / "bust.whorl";
             Progress progress;
-            QVERIFY(saveDocument(makeGroom(testing::sphere(48, 64)), head, progress).ok());
+            const Result<OpenedDocument> sample = openGroom(*bust, progress);
+            QVERIFY(sample.ok());
+            Groom bald = makeGroom(*sample->groom.mesh);
+            for (const MeshPart& part : bald.mesh->parts) {
+                if (const Map* texture = sample->groom.maps.find(part.texture)) bald.maps.set(part.texture, *texture);
+            }
+            QVERIFY(saveDocument(bald, head, progress).ok());
         }
         QVERIFY2(m_window->files().open(head), qPrintable(said()));
         QVERIFY(document().hasGroom());
