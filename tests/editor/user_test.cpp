@@ -85,6 +85,12 @@ class UserTest : public QObject {
         testing::settle(*m_window);
         keep(m_window->grab().toImage(), name);
     }
+    /// Presses a shortcut and names `file` in the dialog that it opens.
+    void saysInDialog(Qt::Key key, Qt::KeyboardModifiers modifiers, const std::filesystem::path& file) {
+        QApplication::setActiveWindow(m_window.get());  // as a window manager does after a dialog
+        testing::answerFileDialog(file);
+        QTest::keyClick(m_window.get(), key, modifiers);
+    }
     QString said() { return m_window->area().messages().sentence(); }
 
 private Q_SLOTS:
@@ -286,11 +292,13 @@ private Q_SLOTS:
         const std::uint64_t before = testing::groomDigest(document().committed());
         const std::filesystem::path file = m_folder / "head.whorl";
         QVERIFY(!document().clean());
-        QVERIFY2(m_window->files().saveTo(file), qPrintable(said()));
+        saysInDialog(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier, file);
+        QVERIFY2(std::filesystem::exists(file), qPrintable(said()));
         QVERIFY(document().clean());
         QVERIFY(m_window->windowTitle().contains("head.whorl"));
         const Camera camera = view().camera();
-        QVERIFY2(m_window->files().open(file), qPrintable(said()));
+        saysInDialog(Qt::Key_O, Qt::ControlModifier, file);
+        QVERIFY2(document().clean() && document().history().count() == 0, qPrintable(said()));
         QCOMPARE(testing::groomDigest(document().committed()), before);
         QCOMPARE(document().history().count(), 0);
         // What comes back looks the same, too, from the same place: opening shows the guides and all.
@@ -305,7 +313,10 @@ private Q_SLOTS:
 
     void exportPackage() {
         const std::filesystem::path folder = m_folder / "head.groom";
-        QVERIFY2(m_window->exports().exportPackage(folder, 3), qPrintable(said()));
+        Groom inThree = document().committed();
+        inThree.counts.edit().parts = 3;
+        document().edit(std::move(inThree), "Parts");
+        saysInDialog(Qt::Key_E, Qt::ControlModifier, folder);
         Progress progress;
         const Result<Package> package = openPackage(folder, progress);
         QVERIFY2(package.ok(), package.ok() ? "" : package.error().message.c_str());
@@ -317,7 +328,8 @@ private Q_SLOTS:
 
     void exportHairAndPicture() {
         const std::filesystem::path hair = m_folder / "head.ply";
-        QVERIFY2(m_window->exports().exportHair(hair), qPrintable(said()));
+        saysInDialog(Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier, hair);
+        QVERIFY2(std::filesystem::exists(hair), qPrintable(said()));
         QVERIFY(std::filesystem::file_size(hair) > 100000);
         const std::filesystem::path image = m_folder / "head.png";
         QVERIFY2(m_window->exports().renderPicture(image, 400, 300), qPrintable(said()));

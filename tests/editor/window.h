@@ -9,11 +9,16 @@
 #include "tests/support/shapes.h"
 
 #include <QApplication>
+#include <QDialogButtonBox>
 #include <QDir>
+#include <QFileDialog>
+#include <QLineEdit>
 #include <QMouseEvent>
 #include <QPoint>
+#include <QPushButton>
 #include <QSettings>
 #include <QTest>
+#include <QTimer>
 #include <filesystem>
 #include <memory>
 
@@ -21,6 +26,7 @@ namespace whorl::testing {
 
 /// Call first in initTestCase: settings of tests never touch those of the artist.
 inline void useScratchSettings(const std::filesystem::path& folder) {
+    QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
     QApplication::setOrganizationName("whorl-test");
     QApplication::setApplicationName("whorl-test");
     QSettings::setDefaultFormat(QSettings::IniFormat);
@@ -43,6 +49,26 @@ inline std::unique_ptr<MainWindow> openWindow(const std::filesystem::path& journ
 inline bool settle(MainWindow& window, int milliseconds = 20000) {
     QTest::qWait(30);
     return !window.viewport() || QTest::qWaitFor([&] { return window.viewport()->settled(); }, milliseconds);
+}
+
+/// Answers the next file dialog, or for lack of one within 5 s nothing: types the name as a user does and confirms.
+/// Call before what opens the dialog.
+inline void answerFileDialog(const std::filesystem::path& file, int triesLeft = 100) {
+    QTimer::singleShot(50, qApp, [file, triesLeft] {
+        auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+        auto* name = dialog ? dialog->findChild<QLineEdit*>("fileNameEdit") : nullptr;
+        if (name) {
+            QApplication::setActiveWindow(dialog);
+            name->setFocus();
+            name->selectAll();
+            QTest::keyClicks(name, textOf(file));
+            if (QWidget* completions = QApplication::activePopupWidget()) completions->close();
+            dialog->findChild<QDialogButtonBox*>()->buttons().front()->click();
+            if (dialog->isVisible()) qWarning("The dialog did not take %s", qPrintable(name->text()));
+        } else if (triesLeft > 0) {
+            answerFileDialog(file, triesLeft - 1);
+        }
+    });
 }
 
 /// A press, a drag through `points`, a release.
