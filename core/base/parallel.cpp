@@ -51,7 +51,13 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {
-    if (threads > 0) m_control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
+    if (threads == 0) return;
+    // The pool keeps the size that it had at its first work; made under a limit it would stay that small.
+    static const bool made = [] {
+        tbb::parallel_for(0, 2, [](int) {});
+        return true;
+    }();
+    if (made) m_control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
 }
 
 ThreadLimit::~ThreadLimit() {

@@ -9,6 +9,11 @@ namespace whorl {
 
 std::vector<BenchRow> benchSampler();
 std::vector<BenchRow> benchHair();
+std::vector<BenchRow> benchStrands();
+std::vector<BenchRow> benchModifiers();
+std::vector<BenchRow> benchEdit();
+std::vector<BenchRow> benchBox();
+std::vector<BenchRow> benchStream();
 std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchPaint();
 std::vector<BenchRow> benchDraw();
@@ -17,6 +22,11 @@ std::span<const Bench> benches() {
     static const std::array list{
         Bench{"sampler", "Random roots, against bisection and rejection", benchSampler},
         Bench{"hair", "Generation of hair, against the reference generator", benchHair},
+        Bench{"strands", "Hairs of strands from base hairs, against the reference generator", benchStrands},
+        Bench{"modifiers", "Each modifier and all together, against the reference generator", benchModifiers},
+        Bench{"edit", "Hair after a stroke of the comb, against a fresh generator", benchEdit},
+        Bench{"box", "Boxes over rendered curves, against a plain loop", benchBox},
+        Bench{"stream", "Memory above the document while 1,600,000 hairs go by", benchStream},
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
