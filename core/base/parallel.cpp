@@ -31,6 +31,8 @@ struct Order {
 };
 #endif
 
+thread_local int loopsAlone = 0;
+
 }  // namespace
 
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
@@ -41,6 +43,10 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
         body(0, count);
         return;
     }
+    if (loopsAlone > 0) {
+        for (std::size_t block = 0; block < blocks; ++block) body(block * grain, std::min(count, (block + 1) * grain));
+        return;
+    }
     Order order;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
         order.blockBegins();
@@ -48,6 +54,14 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
         order.blockEnds();
     });
     order.allEnded();
+}
+
+OneThread::OneThread() {
+    ++loopsAlone;
+}
+
+OneThread::~OneThread() {
+    --loopsAlone;
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {

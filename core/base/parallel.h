@@ -12,6 +12,15 @@ namespace whorl {
 /// its result by block. `body` must not throw.
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
+/// While it lives, loops that the calling thread starts run in it alone: for hosts that call from all of their threads.
+class OneThread {
+public:
+    OneThread();
+    ~OneThread();
+    OneThread(const OneThread&) = delete;
+    OneThread& operator=(const OneThread&) = delete;
+};
+
 /// Limits all parallel work of the process to `threads` while it lives; 0 means all cores.
 class ThreadLimit {
 public:

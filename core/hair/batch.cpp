@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/batch.h"
 
+#include "core/hair/prepared.h"
 #include "core/hair/thin.h"
 
 #include <algorithm>
@@ -68,35 +69,109 @@ void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Ba
     evaluateHairs(sources, batch.grown, allOf(batch.grown), *batch.strands, progress);
 }
 
-Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
-                           std::uint32_t blockSize, const std::function<bool(const Strands&)>& sink,
-                           Progress& progress) {
+namespace {
+
+/// Calls `use` with a piece of the part's roots at a time, in order, at most `step` of them; false stops.
+Result<void> eachBatch(const HairParts& parts, const HairLookups& lookups, const HairWish& wish, std::size_t step,
+                       const std::function<bool(std::span<const HairRoot>)>& use, Progress& progress) {
     // Fewer roots are not worth going over the surface for.
     constexpr double leastPerPiece = 4096.0;
-    const HairWish wish = wishFor(parts, options);
     const RootSource source{*parts.groom.mesh, parts.sampler, lookups.density, wish.request};
-    const std::size_t step = std::max<std::size_t>(blockSize / mostHairsOfRoot(parts.groom), 1);
     // Roots are made for a piece of the surface, hair for at most `step` of them.
     const double perPiece = std::max(static_cast<double>(step), leastPerPiece);
     const auto pieces = static_cast<std::size_t>(expectedRoots(source, wish.range) / perPiece) + 1;
-    const bool thin = skipsVertices(parts.groom);
-    Batch block;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
         const std::vector<HairRoot> roots =
             makeRoots(source, pieceOf(parts.sampler, wish.range, piece, pieces), progress);
         for (std::size_t first = 0; first < roots.size(); first += step) {
-            const std::size_t last = std::min(first + step, roots.size());
-            block.roots.assign(roots.begin() + static_cast<std::ptrdiff_t>(first),
-                               roots.begin() + static_cast<std::ptrdiff_t>(last));
-            growBatch(parts, lookups, wish.lod, block, progress);
-            if (progress.cancelled()) return cancelledError();
-            if (block.strands->count() > 0 && !sink(thin ? thinned(*block.strands, parts.groom) : *block.strands))
-                return cancelledError();
+            const bool wanted = use({roots.data() + first, std::min(step, roots.size() - first)});
+            if (progress.cancelled() || !wanted) return cancelledError();
         }
         if (progress.cancelled()) return cancelledError();
         progress.report(static_cast<float>(piece + 1) / static_cast<float>(pieces), "Growing hair");
     }
     return {};
+}
+
+/// The hair of `batch`, which was grown at another time.
+void growAtTime(const HairParts& parts, const HairLookups& lookups, float lod, const Batch& batch, Strands& strands,
+                Progress& progress) {
+    const std::vector<HairTraits> traits = traitsFor(lookups.traits, batch.roots, lod, progress);
+    if (progress.cancelled()) return;
+    const HairSources sources{parts.groom,
+                              batch.roots,
+                              batch.bindings,
+                              traits,
+                              parts.shapes,
+                              lookups.traits.kinkOffset(),
+                              parts.guard ? &*parts.guard : nullptr,
+                              lookups.chain,
+                              parts.clumps,
+                              batch.centres};
+    const GrownHairs grown = layOut(sources, strands);
+    evaluateHairs(sources, grown, allOf(grown), strands, progress);
+}
+
+std::size_t rootsOfBlock(const HairParts& parts, std::uint32_t blockSize) {
+    return std::max<std::size_t>(blockSize / mostHairsOfRoot(parts.groom), 1);
+}
+
+}  // namespace
+
+Result<void> streamMotion(const HairParts& parts, std::span<const HairLookups* const> times,
+                          const GenerateOptions& options, std::uint32_t blockSize, const MotionSink& sink,
+                          Progress& progress) {
+    const HairWish wish = wishFor(parts, options);
+    const bool thin = skipsVertices(parts.groom);
+    Batch block;
+    std::vector<Strands> later(times.size() - 1);
+    std::vector<const Strands*> samples(times.size());
+    const auto grow = [&](std::span<const HairRoot> roots) {
+        block.roots.assign(roots.begin(), roots.end());
+        growBatch(parts, *times[0], wish.lod, block, progress);
+        if (progress.cancelled() || block.strands->count() == 0) return true;
+        samples[0] = block.strands.get();
+        for (std::size_t s = 1; s < times.size(); ++s) {
+            samples[s] = times[s] == times[0] ? samples[0] : &later[s - 1];
+            if (samples[s] != samples[0]) growAtTime(parts, *times[s], wish.lod, block, later[s - 1], progress);
+        }
+        if (progress.cancelled()) return true;
+        if (!thin) return sink(samples);
+        const std::vector<Strands> thinner = thinnedTogether(samples, parts.groom);
+        std::vector<const Strands*> shown;
+        for (const Strands& sample : thinner) shown.push_back(&sample);
+        return sink(shown);
+    };
+    return eachBatch(parts, *times[0], wish, rootsOfBlock(parts, blockSize), grow, progress);
+}
+
+Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
+                           std::uint32_t blockSize, const std::function<bool(const Strands&)>& sink,
+                           Progress& progress) {
+    const HairLookups* once = &lookups;
+    return streamMotion(
+        parts, {&once, 1}, options, blockSize,
+        [&](std::span<const Strands* const> samples) { return sink(*samples[0]); }, progress);
+}
+
+Result<HairCount> countBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
+                               Progress& progress) {
+    const HairWish wish = wishFor(parts, options);
+    HairCount count;
+    Batch block;
+    const auto add = [&](std::span<const HairRoot> roots) {
+        block.roots.assign(roots.begin(), roots.end());
+        block.bindings = bindHairs(parts.groom, parts.index, block.roots, progress, std::move(block.bindings));
+        block.traits = traitsFor(lookups.traits, block.roots, wish.lod, progress);
+        if (progress.cancelled()) return true;
+        layOut(block.sourcesOf(parts, lookups), *block.strands);
+        count.hairs += block.strands->count();
+        count.vertices += block.strands->vertexCount();
+        return true;
+    };
+    const auto done = eachBatch(parts, lookups, wish, rootsOfBlock(parts, 1u << 14), add, progress);
+    if (!done) return done.error();
+    return count;
 }
 
 }  // namespace whorl

@@ -12,6 +12,8 @@
 
 namespace whorl {
 
+struct HairCount;  // see prepared.h
+
 /// All that is derived from a groom before its first hair. Any number of threads may read it at once.
 struct HairParts {
     Groom groom;
@@ -87,5 +89,17 @@ void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Ba
 Result<void> streamBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
                            std::uint32_t blockSize, const std::function<bool(const Strands&)>& sink,
                            Progress& progress);
+
+/// Takes one block of hair, once a motion sample: the same hairs with the same numbers of vertices.
+using MotionSink = std::function<bool(std::span<const Strands* const> samples)>;
+
+/// The same at several times, at least one: those that `times` were made for (that of `options` is not asked).
+Result<void> streamMotion(const HairParts& parts, std::span<const HairLookups* const> times,
+                          const GenerateOptions& options, std::uint32_t blockSize, const MotionSink& sink,
+                          Progress& progress);
+
+/// Numbers of the hair that streamBatches gives before it leaves out vertices, without making it.
+Result<HairCount> countBatches(const HairParts& parts, const HairLookups& lookups, const GenerateOptions& options,
+                               Progress& progress);
 
 }  // namespace whorl

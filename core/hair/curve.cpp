@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/curve.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +20,42 @@ Neighbours pieceOf(std::span<const glm::vec3> points, std::size_t piece) {
     return {points[piece > 0 ? piece - 1 : 0], points[piece], points[piece + 1], points[std::min(piece + 2, last)]};
 }
 
+// Numbers at the four vertices of a piece.
+struct Four {
+    float a, b, c, d;
+};
+
+Four radiiOf(std::span<const float> widths, std::size_t piece) {
+    const std::size_t last = widths.size() - 1;
+    return {widths[piece > 0 ? piece - 1 : 0] * 0.5f, widths[piece] * 0.5f, widths[piece + 1] * 0.5f,
+            widths[std::min(piece + 2, last)] * 0.5f};
+}
+
+// Added to boxes, as a share of the greatest coordinate: four roundings of a float.
+constexpr double roundings = 4.8e-7;
+
+/// k0 + k1 t + k2 t^2 + k3 t^3
+struct Cubic {
+    double k0, k1, k2, k3;
+    Cubic operator+(const Cubic& o) const { return {k0 + o.k0, k1 + o.k1, k2 + o.k2, k3 + o.k3}; }
+    Cubic operator-(const Cubic& o) const { return {k0 - o.k0, k1 - o.k1, k2 - o.k2, k3 - o.k3}; }
+};
+
+Cubic catmullRomOf(const Four& n) {
+    const double a = double{n.a}, b = double{n.b}, c = double{n.c}, d = double{n.d};
+    return {b, (c - a) * 0.5, a - 2.5 * b + 2 * c - 0.5 * d, 0.5 * (d - a) + 1.5 * (b - c)};
+}
+
 struct Range {
     double low = 1e300;
     double high = -1e300;
 };
 
-// Least and greatest value of the cubic k0 + k1 t + k2 t^2 + k3 t^3 over 0 <= t <= 1.
-Range cubicRange(double k0, double k1, double k2, double k3) {
+// Least and greatest value over 0 <= t <= 1.
+Range rangeOf(const Cubic& cubic) {
     Range range;
     const auto at = [&](double t) {
-        const double value = k0 + t * (k1 + t * (k2 + t * k3));
+        const double value = cubic.k0 + t * (cubic.k1 + t * (cubic.k2 + t * cubic.k3));
         range.low = std::min(range.low, value);
         range.high = std::max(range.high, value);
     };
@@ -37,13 +65,25 @@ Range cubicRange(double k0, double k1, double k2, double k3) {
         if (t > 0.0 && t < 1.0) at(t);
     };
     // Roots of the derivative 3 k3 t^2 + 2 k2 t + k1 in the form that does not cancel.
-    const double a = 3 * k3, b = 2 * k2, c = k1;
+    const double a = 3 * cubic.k3, b = 2 * cubic.k2, c = cubic.k1;
     const double discriminant = b * b - 4 * a * c;
     if (discriminant < 0) return range;
     const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
     if (a != 0) inside(q / a);
     if (q != 0) inside(c / q);
     return range;
+}
+
+// True when a piece can not reach out of the box: it lies between its ends and the two handles of its Bezier form, a
+// sixth of the way along the chords of its neighbours. Most pieces of much hair are left out so.
+bool insideAlready(const Neighbours& n, const Four& r, const Bounds& bounds) {
+    const glm::vec3 out = n.b + (n.c - n.a) * (1.0f / 6.0f), in = n.c - (n.d - n.b) * (1.0f / 6.0f);
+    const float reach = std::max({r.b, r.c, r.b + (r.c - r.a) * (1.0f / 6.0f), r.c - (r.d - r.b) * (1.0f / 6.0f)});
+    const glm::vec3 low = glm::min(glm::min(n.b, n.c), glm::min(out, in)) - reach;
+    const glm::vec3 high = glm::max(glm::max(n.b, n.c), glm::max(out, in)) + reach;
+    // Farther than the box itself is from the curve.
+    const glm::vec3 room = glm::max(glm::abs(low), glm::abs(high)) * 1.5e-6f;
+    return glm::all(glm::greaterThan(low - room, bounds.min)) && glm::all(glm::lessThan(high + room, bounds.max));
 }
 
 }  // namespace
@@ -72,30 +112,34 @@ glm::vec3 strandTangent(std::span<const glm::vec3> points, std::size_t vertex, c
     return squared > 1e-24f ? along / std::sqrt(squared) : fallback;
 }
 
-Bounds strandBounds(std::span<const glm::vec3> points, std::span<const float> widths) {
-    Bounds bounds;
-    if (points.empty()) return bounds;
+void addStrandBounds(std::span<const glm::vec3> points, std::span<const float> widths, Bounds& bounds) {
     if (points.size() == 1) {
         bounds.add(points[0] - glm::vec3(widths[0] * 0.5f));
         bounds.add(points[0] + glm::vec3(widths[0] * 0.5f));
-        return bounds;
     }
     for (std::size_t piece = 0; piece + 1 < points.size(); ++piece) {
         const Neighbours n = pieceOf(points, piece);
-        const double r0 = double{widths[piece]} * 0.5, r1 = double{widths[piece + 1]} * 0.5;
+        const Four radii = radiiOf(widths, piece);
+        if (insideAlready(n, radii, bounds)) continue;
+        const Cubic curved = catmullRomOf(radii);
+        const Cubic straight{curved.k0, double{radii.c} - double{radii.b}, 0.0, 0.0};
         glm::vec3 low(0.0f), high(0.0f);
         for (int axis = 0; axis < 3; ++axis) {
-            const double a = double{n.a[axis]}, b = double{n.b[axis]}, c = double{n.c[axis]}, d = double{n.d[axis]};
-            const double k1 = (c - a) * 0.5, k2 = a - 2.5 * b + 2 * c - 0.5 * d, k3 = 0.5 * (d - a) + 1.5 * (b - c);
-            const double least = cubicRange(b - r0, k1 - (r1 - r0), k2, k3).low;
-            const double most = cubicRange(b + r0, k1 + (r1 - r0), k2, k3).high;
-            // Rounding to float must not cut the box.
-            low[axis] = std::nextafter(static_cast<float>(least), -1e30f);
-            high[axis] = std::nextafter(static_cast<float>(most), 1e30f);
+            const Cubic p = catmullRomOf({n.a[axis], n.b[axis], n.c[axis], n.d[axis]});
+            const double least = std::min(rangeOf(p - curved).low, rangeOf(p - straight).low);
+            const double most = std::max(rangeOf(p + curved).high, rangeOf(p + straight).high);
+            const double room = roundings * std::max(std::abs(least), std::abs(most));
+            low[axis] = static_cast<float>(least - room);
+            high[axis] = static_cast<float>(most + room);
         }
         bounds.add(low);
         bounds.add(high);
     }
+}
+
+Bounds strandBounds(std::span<const glm::vec3> points, std::span<const float> widths) {
+    Bounds bounds;
+    addStrandBounds(points, widths, bounds);
     return bounds;
 }
 

@@ -23,7 +23,9 @@ glm::vec3 strandPoint(std::span<const glm::vec3> points, float parameter);
 /// Unit direction of the curve at a vertex; `fallback` where neighbouring vertices coincide.
 glm::vec3 strandTangent(std::span<const glm::vec3> points, std::size_t vertex, const glm::vec3& fallback);
 
-/// Exact box of the curve swept by a ball whose diameter goes linearly from width to width.
+/// Adds the exact box of the curve swept by a ball whose diameter goes from width to width, linearly or along the same
+/// kind of curve: renderers do either. A few roundings wide of it, so that points worked out in floats are inside.
+void addStrandBounds(std::span<const glm::vec3> points, std::span<const float> widths, Bounds& bounds);
 Bounds strandBounds(std::span<const glm::vec3> points, std::span<const float> widths);
 
 }  // namespace whorl

@@ -66,7 +66,7 @@ Bounds Strands::bounds() const {
         Bounds& block = blocks[begin / grain];
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t first = firstVertex[i], vertices = firstVertex[i + 1] - first;
-            block.add(strandBounds({&positions[first], vertices}, {&widths[first], vertices}));
+            addStrandBounds({&positions[first], vertices}, {&widths[first], vertices}, block);
         }
     });
     Bounds all;

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 namespace whorl {
 namespace {
@@ -29,10 +31,46 @@ float thresholdOf(const Groom& groom, std::uint8_t group) {
     return group < groom.groups->size() ? (*groom.groups)[group].params.general.skipThreshold : 0.0f;
 }
 
+/// One list a hair; empty where all stay.
+using KeptVertices = std::vector<std::vector<std::uint32_t>>;
+
 template <class T>
 void appendKept(std::vector<T>& to, const std::vector<T>& from, std::size_t first,
                 const std::vector<std::uint32_t>& kept) {
     for (const std::uint32_t v : kept) to.push_back(from[first + v]);
+}
+
+Strands withVertices(const Strands& strands, const KeptVertices& keptOf) {
+    Strands thin;
+    thin.ids = strands.ids;
+    thin.members = strands.members;
+    thin.roots = strands.roots;
+    thin.rootUvs = strands.rootUvs;
+    thin.groups = strands.groups;
+    std::vector<std::uint32_t> all;
+    for (std::size_t i = 0; i < strands.count(); ++i) {
+        const std::size_t first = strands.firstVertex[i], count = strands.firstVertex[i + 1] - first;
+        if (keptOf[i].empty()) {
+            all.resize(count);
+            std::iota(all.begin(), all.end(), 0u);
+        }
+        const std::vector<std::uint32_t>& kept = keptOf[i].empty() ? all : keptOf[i];
+        appendKept(thin.positions, strands.positions, first, kept);
+        appendKept(thin.normals, strands.normals, first, kept);
+        appendKept(thin.widths, strands.widths, first, kept);
+        appendKept(thin.colours, strands.colours, first, kept);
+        const std::size_t from = thin.firstVertex.back(), vertices = kept.size();
+        thin.firstVertex.push_back(static_cast<std::uint32_t>(from + vertices));
+        if (vertices == count) continue;
+        const std::span<const glm::vec3> points{&thin.positions[from], vertices};
+        for (std::size_t v = 0; v < vertices; ++v) {
+            glm::vec3& normal = thin.normals[from + v];
+            const glm::vec3 tangent = strandTangent(points, v, glm::vec3(0.0f));
+            const glm::vec3 turned = normal - tangent * glm::dot(normal, tangent);
+            if (glm::dot(turned, turned) > 1e-6f) normal = glm::normalize(turned);
+        }
+    }
+    return thin;
 }
 
 }  // namespace
@@ -53,42 +91,34 @@ std::vector<std::uint32_t> keptVertices(std::span<const glm::vec3> points, float
     return kept;
 }
 
-Strands thinned(const Strands& strands, const Groom& groom) {
-    std::vector<std::vector<std::uint32_t>> kept(strands.count());
-    parallelFor(strands.count(), 512, [&](std::size_t begin, std::size_t end) {
+std::vector<Strands> thinnedTogether(std::span<const Strands* const> samples, const Groom& groom) {
+    const Strands& first = *samples[0];
+    KeptVertices kept(first.count());
+    parallelFor(first.count(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t first = strands.firstVertex[i], count = strands.firstVertex[i + 1] - first;
-            const float threshold = thresholdOf(groom, strands.groups[i]);
-            if (threshold > 0.0f) kept[i] = keptVertices({&strands.positions[first], count}, threshold);
+            const std::size_t from = first.firstVertex[i], count = first.firstVertex[i + 1] - from;
+            const float threshold = thresholdOf(groom, first.groups[i]);
+            if (!(threshold > 0.0f)) continue;
+            for (const Strands* sample : samples) {
+                const auto own = keptVertices({&sample->positions[from], count}, threshold);
+                if (kept[i].empty()) {
+                    kept[i] = own;
+                    continue;
+                }
+                std::vector<std::uint32_t> both;
+                std::ranges::set_union(kept[i], own, std::back_inserter(both));
+                kept[i] = std::move(both);
+            }
         }
     });
-    Strands thin;
-    thin.ids = strands.ids;
-    thin.members = strands.members;
-    thin.roots = strands.roots;
-    thin.rootUvs = strands.rootUvs;
-    thin.groups = strands.groups;
-    for (std::size_t i = 0; i < strands.count(); ++i) {
-        const std::size_t first = strands.firstVertex[i], count = strands.firstVertex[i + 1] - first;
-        if (kept[i].empty()) {
-            for (std::uint32_t v = 0; v < count; ++v) kept[i].push_back(v);
-        }
-        appendKept(thin.positions, strands.positions, first, kept[i]);
-        appendKept(thin.normals, strands.normals, first, kept[i]);
-        appendKept(thin.widths, strands.widths, first, kept[i]);
-        appendKept(thin.colours, strands.colours, first, kept[i]);
-        const std::size_t from = thin.firstVertex.back(), vertices = kept[i].size();
-        thin.firstVertex.push_back(static_cast<std::uint32_t>(from + vertices));
-        if (vertices == count) continue;
-        const std::span<const glm::vec3> points{&thin.positions[from], vertices};
-        for (std::size_t v = 0; v < vertices; ++v) {
-            glm::vec3& normal = thin.normals[from + v];
-            const glm::vec3 tangent = strandTangent(points, v, glm::vec3(0.0f));
-            const glm::vec3 turned = normal - tangent * glm::dot(normal, tangent);
-            if (glm::dot(turned, turned) > 1e-6f) normal = glm::normalize(turned);
-        }
-    }
+    std::vector<Strands> thin;
+    for (const Strands* sample : samples) thin.push_back(withVertices(*sample, kept));
     return thin;
+}
+
+Strands thinned(const Strands& strands, const Groom& groom) {
+    const Strands* one = &strands;
+    return std::move(thinnedTogether({&one, 1}, groom)[0]);
 }
 
 }  // namespace whorl

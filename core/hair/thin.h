@@ -5,6 +5,9 @@
 #include "core/hair/strands.h"
 #include "core/model/groom.h"
 
+#include <span>
+#include <vector>
+
 namespace whorl {
 
 /// True when a group has a skip threshold.
@@ -14,6 +17,10 @@ bool skipsVertices(const Groom& groom);
 /// straight line between the two kept ones around it than its group's threshold times the length of that line.
 /// Normals are turned to stay perpendicular to the curve.
 Strands thinned(const Strands& strands, const Groom& groom);
+
+/// The same hair at several times (motion samples), which keeps the same vertices at all of them: those that stay at
+/// any. As many as `samples`, of the same number of hairs and vertices.
+std::vector<Strands> thinnedTogether(std::span<const Strands* const> samples, const Groom& groom);
 
 /// Which vertices of a curve stay at a threshold above zero: ascending, the first and the last among them.
 std::vector<std::uint32_t> keptVertices(std::span<const glm::vec3> points, float threshold);
