@@ -123,7 +123,10 @@ std::size_t GuideIndex::nearest(std::size_t group, const glm::vec3& position, co
             squared = moreSquared.data();
             candidates = moreCandidates.data();
         }
-        m_trees[group]->tree->knnSearch(query, asked, found, squared);
+        const std::size_t there = m_trees[group]->tree->knnSearch(query, asked, found, squared);
+        // Places so far apart that their squared distance is no finite number are not found.
+        if (there == 0) return 0;
+        if (there < asked) asked = most = there;
         const bool parted = m_partings.near(position, std::sqrt(squared[asked - 1]));
         if (parted) most = std::min(most, std::max(asked, mostLookedAt));
         std::size_t count = 0;

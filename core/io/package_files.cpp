@@ -26,6 +26,24 @@ std::uint64_t digestFromText(const std::string& text) {
 
 }  // namespace
 
+std::string packageChecksum(json manifest) {
+    manifest.erase("checksum");
+    const std::string text = jsonText(manifest);
+    return hexDigest(hashBytes(text.data(), text.size()));
+}
+
+json partToJson(const PackagePart& part) {
+    return {{"file", part.file},
+            {"first_unit", part.range.first},
+            {"last_unit", part.range.last},
+            {"asked", part.asked},
+            {"hairs", part.hairs},
+            {"vertices", part.vertices},
+            {"bounds", boundsToJson(part.bounds)},
+            {"bytes", part.bytes},
+            {"digest", hexDigest(part.digest)}};
+}
+
 std::string packagePartName(std::uint32_t part) {
     char name[24];
     std::snprintf(name, sizeof name, "part-%04u.bin", part);

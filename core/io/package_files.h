@@ -13,6 +13,18 @@ inline constexpr std::uint32_t maxPackageParts = 4096;
 inline constexpr const char* packageManifest = "groom.json";
 inline constexpr const char* packageShared = "shared.bin";
 
+inline constexpr const char* packageFormat = "whorl-package";
+// 1 had ranges of hairs instead of the surface.
+inline constexpr std::uint64_t packageVersion = 2;
+inline constexpr std::uint64_t maxPackageManifest = std::uint64_t{16} << 20;
+
+/// Checksum of groom.json without the one that it holds.
+std::string packageChecksum(nlohmann::json manifest);
+/// Entry of a part in groom.json.
+nlohmann::json partToJson(const PackagePart& part);
+/// See openPackage; the folder is there.
+Result<Package> readPackage(const std::filesystem::path& folder, Progress& progress);
+
 /// "part-0007.bin"
 std::string packagePartName(std::uint32_t part);
 /// True for the names that packages use.

@@ -15,16 +15,6 @@ json plainJson(const ParamValue& value) {
     return std::get<std::string>(value);
 }
 
-std::optional<ParamValue> valueFromJson(const json& value) {
-    if (value.is_boolean()) return ParamValue(value.get<bool>());
-    if (value.is_number()) return ParamValue(value.get<double>());
-    if (value.is_string()) return ParamValue(value.get<std::string>());
-    if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() && value[2].is_number()) {
-        return ParamValue(glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>()));
-    }
-    return std::nullopt;
-}
-
 bool isMapName(const ParamRef& param) {
     return std::holds_alternative<MapName*>(param.target);
 }
@@ -44,7 +34,7 @@ void setFromJson(const ParamRef& param, const json& stored, const std::string& w
         if (!stored.contains("value")) return;
         plain = &stored["value"];
     }
-    const auto value = valueFromJson(*plain);
+    const auto value = paramValueFromJson(*plain);
     if (!value) {
         problems.push_back(where + ": not a value; the default is used.");
         return;
@@ -55,6 +45,16 @@ void setFromJson(const ParamRef& param, const json& stored, const std::string& w
 }
 
 }  // namespace
+
+std::optional<ParamValue> paramValueFromJson(const json& value) {
+    if (value.is_boolean()) return ParamValue(value.get<bool>());
+    if (value.is_number()) return ParamValue(value.get<double>());
+    if (value.is_string()) return ParamValue(value.get<std::string>());
+    if (value.is_array() && value.size() == 3 && value[0].is_number() && value[1].is_number() && value[2].is_number()) {
+        return ParamValue(glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>()));
+    }
+    return std::nullopt;
+}
 
 json blockToJson(std::span<const ParamRef> params) {
     json object = json::object();

@@ -6,10 +6,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 
 namespace whorl {
+
+/// A plain value; nothing for what is none (objects, lists but of three numbers).
+std::optional<ParamValue> paramValueFromJson(const nlohmann::json& json);
 
 /// One object of a block. Numbers with a map become {"value": 0.5, "map": "length"}; choices are texts.
 nlohmann::json blockToJson(std::span<const ParamRef> params);
