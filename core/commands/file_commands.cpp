@@ -71,15 +71,13 @@ Result<std::string> saveMap(CommandContext& context, Arguments arguments, Progre
 Result<std::string> generate(CommandContext& context, Arguments arguments, Progress& progress) {
     if (arguments.empty() || arguments.size() > 2) return usageError("generate FILE [COUNT]");
     if (!context.hasGroom) return noGroomError();
-    GenerateOptions options;
-    if (arguments.size() == 2) {
-        options.hairCount = numberFrom<std::uint32_t>(arguments[1], 0, 10000000);
-        if (!options.hairCount)
-            return Error{"The number of hairs must be from 0 to 10000000, not \"" + arguments[1] + "\"."};
-    }
     Groom groom = context.groom;
-    if (options.hairCount) groom.countAnew();
-    const auto count = writeHair(groom, options, arguments[0], progress, context.surfaces.get(groom.mesh));
+    if (arguments.size() == 2) {
+        const auto hairs = numberFrom<std::uint32_t>(arguments[1], 0, 10000000);
+        if (!hairs) return Error{"The number of hairs must be from 0 to 10000000, not \"" + arguments[1] + "\"."};
+        groom.setHairs(*hairs);
+    }
+    const auto count = writeHair(groom, {}, arguments[0], progress, context.surfaces.get(groom.mesh));
     if (!count) return count.error();
     return std::to_string(*count) + " hairs";
 }

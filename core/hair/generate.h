@@ -16,8 +16,9 @@
 namespace whorl {
 
 struct GenerateOptions {
-    std::optional<std::uint32_t> hairCount{};  ///< instead of counts.hairs
-    std::uint32_t part = 0;                    ///< 0 to partCount - 1; parts are compact pieces of the surface
+    /// Instead of counts.hairs: about this many, a part of those where they are fewer. See requestFor.
+    std::optional<std::uint32_t> hairCount{};
+    std::uint32_t part = 0;  ///< 0 to partCount - 1; parts are compact pieces of the surface
     std::uint32_t partCount = 1;
     /// Level of detail: this share of the hairs, 0 to 1, a subset of all, and as much wider as they are fewer.
     float lod = 1.0f;

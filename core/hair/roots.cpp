@@ -26,7 +26,7 @@ HairRoot rootAt(const RootSource& source, std::uint32_t id, const SurfacePoint& 
 
 RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share) {
     const auto seed = static_cast<std::uint32_t>(counts.seed);
-    const float weight = counts.densityTotal > 0.0f ? counts.densityTotal : sampler.weightFor(hairs, seed);
+    const float weight = counts.densityTotal > 0.0f ? counts.densityTotal : sampler.weightFor(counts.hairs, seed);
     return {weight > 0.0f ? hairs * share / static_cast<double>(weight) : 0.0, seed};
 }
 

@@ -34,7 +34,9 @@ struct RootSource {
 HairRoot rootAt(const RootSource& source, std::uint32_t id, const SurfacePoint& point);
 
 /// The request that gives `share` of `hairs` hairs on the groom as `sampler` measured it, or on the groom as it was
-/// before paint (counts.density_total). Where that is not pinned the hairs are counted, so keep the answer.
+/// before paint (counts.density_total). Where that is not pinned hairs are counted, so keep the answer: then
+/// counts.hairs are that many exactly, and other numbers a part of them or more of the same sequence, close to that
+/// many. So paint, which pins the weight, moves no hair outside the dab whatever number is shown.
 RootRequest requestFor(const CountParams& counts, const RootSampler& sampler, double hairs, double share = 1.0);
 
 /// Number of roots to expect in a range, before those on places of no density are left out.

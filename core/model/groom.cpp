@@ -176,6 +176,12 @@ void Groom::countAnew() {
     if (counts->densityTotal != 0.0f) counts.edit().densityTotal = 0.0f;
 }
 
+void Groom::setHairs(std::uint32_t hairs) {
+    const auto wanted = static_cast<int>(std::min(hairs, 0x7fffffffu));
+    if (counts->hairs != wanted) counts.edit().hairs = wanted;
+    countAnew();
+}
+
 int Groom::groupIndex(std::string_view name) const {
     for (std::size_t i = 0; i < groups->size(); ++i) {
         if ((*groups)[i].name == name) return static_cast<int>(i);

@@ -45,6 +45,8 @@ struct Groom {
     bool growsHair(std::uint32_t part) const;
     /// The number of hairs stands for the density of today again (see CountParams::densityTotal).
     void countAnew();
+    /// That many hairs, as the density of today has them.
+    void setHairs(std::uint32_t hairs);
 };
 
 /// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides. Thicknesses and noise fit a head of a

@@ -11,7 +11,8 @@ namespace whorl {
 /// True when texels of that map say where hair grows: it is the density map of a group, or the group map.
 bool drivesDensity(const Groom& groom, std::string_view map);
 
-/// What to pin counts.density_total at so that all hair of the groom stays as it is; zero where nothing grows.
+/// What to pin counts.density_total at so that all hair of the groom stays as it is, whatever number of it is shown.
+/// Zero where nothing grows: then the number stands for the first area that is painted.
 float densityTotalOf(const Groom& groom);
 
 }  // namespace whorl

@@ -203,11 +203,19 @@ float RootSampler::weightFor(double hairs, std::uint32_t seed) const {
     const auto average = static_cast<float>(m_weight);
     if (empty() || !(hairs >= 1.0) || hairs > mostCounted) return average;
     const auto wanted = static_cast<std::int64_t>(hairs + 0.5);
-    RootList list;
+    const auto pieces = static_cast<std::uint32_t>(hairs / 32768.0) + 1;
+    std::vector<RootList> lists(pieces);
     const auto excessAt = [&](float weight) {
-        list.clear();
-        sample({hairs / static_cast<double>(weight), seed}, {}, list);
-        return static_cast<std::int64_t>(list.count()) - wanted;
+        parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                lists[i].clear();
+                sample({hairs / static_cast<double>(weight), seed}, part(static_cast<std::uint32_t>(i), pieces),
+                       lists[i]);
+            }
+        });
+        std::int64_t count = 0;
+        for (const RootList& list : lists) count += static_cast<std::int64_t>(list.count());
+        return count - wanted;
     };
     // Greater weights give fewer hairs. From the average in growing steps to both sides of the wanted number...
     struct Tried {

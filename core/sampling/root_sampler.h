@@ -46,7 +46,8 @@ public:
     /// hairs, exactly where the density is the same everywhere, else with less spread than chance has.
     double weight() const { return m_weight; }
     /// About the same, such that rate `hairs` / this gives that number, but for candidates that become hairs at the
-    /// same rate. More than a million are not counted: this is weight(). Fewer hairs stay a subset of more.
+    /// same rate. More than a million are not counted: this is weight(). Fewer hairs stay a subset of more. The same on
+    /// any number of threads.
     float weightFor(double hairs, std::uint32_t seed) const;
     bool empty() const { return !(m_weight > 0.0); }
 

@@ -25,7 +25,6 @@ Outcome generate(const Options& options) {
         return badUsage("-o: hair is written as " + known + "; choose a name that ends so.");
     }
     GenerateOptions generateOptions;
-    generateOptions.hairCount = options.count;
     if (!options.part.empty()) {
         const std::size_t slash = options.part.find('/');
         const auto of =
@@ -39,7 +38,7 @@ Outcome generate(const Options& options) {
     const ThreadLimit limit(options.threads);
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
-    if (options.count) groom->countAnew();
+    if (options.count) groom->setHairs(*options.count);
     const auto written = writeHair(*groom, generateOptions, options.output, progress());
     if (!written) return badInput(written.error());
     if (*written == 0) note(options.output + ": no hair grows in this groom.");
@@ -50,8 +49,8 @@ Outcome hash(const Options& options) {
     const ThreadLimit limit(options.threads);
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
-    if (options.count) groom->countAnew();
-    const auto digest = hairDigest(*groom, options.parts, options.count, progress());
+    if (options.count) groom->setHairs(*options.count);
+    const auto digest = hairDigest(*groom, options.parts, std::nullopt, progress());
     if (!digest) return badInput(digest.error());
     endProgress();
     return printed(hexDigest(*digest) + "\n");

@@ -50,8 +50,7 @@ Outcome render(const Options& options) {
         Generator generator;
         generator.setSurface(surface);
         GenerateOptions generateOptions;
-        generateOptions.hairCount = options.count;
-        if (options.count) groom->countAnew();
+        if (options.count) groom->setHairs(*options.count);
         auto made = generator.generate(*groom, generateOptions, progress());
         if (!made) return badInput(made.error());
         strands = std::make_shared<Strands>(std::move(*made));

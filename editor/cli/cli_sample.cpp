@@ -48,6 +48,7 @@ Result<std::vector<SurfacePoint>> hairPlaces(const Groom& groom, const DensityLo
     if (sampler->empty()) return places;
     CountParams counts;
     counts.seed = static_cast<int>(options.seed);
+    counts.hairs = static_cast<int>(options.count);
     RootList roots;
     sampler->sample(requestFor(counts, *sampler, static_cast<double>(options.count)), {}, roots);
     places.reserve(roots.count());

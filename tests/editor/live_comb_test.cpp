@@ -101,7 +101,8 @@ private Q_SLOTS:
         options.radius = 60.0f;
         m_window->state().setBrushOptions(options);
         QVERIFY(testing::settle(*m_window, 60000));
-        QCOMPARE(view().strands()->count(), std::size_t{hairs});
+        // Shown are those of the groom at the same places, about this many.
+        QVERIFY(std::abs(static_cast<double>(view().strands()->count()) - hairs) < 0.005 * hairs);
         keep("live_still.png");
     }
 

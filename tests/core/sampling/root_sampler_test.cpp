@@ -219,6 +219,7 @@ private Q_SLOTS:
             const RootSampler sampler = build(groom);
             for (const int count : {0, 1, 2, 17, 1000, 99999}) {
                 groom.counts.edit().seed = count;
+                groom.counts.edit().hairs = count;
                 const RootRequest request = requestFor(*groom.counts, sampler, count);
                 QCOMPARE(rootsOf(sampler, request).size(), static_cast<std::size_t>(count));
             }
@@ -231,6 +232,7 @@ private Q_SLOTS:
             const RootSampler sampler = build(groom);
             std::vector<Root> fewer;
             for (const int count : {0, 1, 2, 5, 100, 2500, 10000, 60000}) {
+                groom.counts.edit().hairs = count;
                 const std::vector<Root> roots = byId(rootsOf(sampler, requestFor(*groom.counts, sampler, count)));
                 QVERIFY2(std::abs(static_cast<int>(roots.size()) - count) <= (count > 100 ? 1 : 0),
                          qPrintable(QString("%1 of %2").arg(roots.size()).arg(count)));
@@ -238,10 +240,15 @@ private Q_SLOTS:
                                       [](const Root& a, const Root& b) { return a.id < b.id; }));
                 fewer = roots;
             }
-            // Pinned it stays the same.
-            groom.counts.edit().hairs = 60000;
+            // Pinned it stays the same, for any number of shown ones.
+            const std::vector<double> shown{0.0, 1.0, 7.0, 300.0, 9999.0, 60000.0, 80000.0};
+            std::vector<std::vector<Root>> before;
+            for (const double some : shown)
+                before.push_back(rootsOf(sampler, requestFor(*groom.counts, sampler, some)));
+            QVERIFY(byId(before[5]) == fewer);
             groom.counts.edit().densityTotal = densityTotalOf(groom);
-            QVERIFY(byId(rootsOf(sampler, requestFor(*groom.counts, sampler, 60000))) == fewer);
+            for (std::size_t i = 0; i < shown.size(); ++i)
+                QVERIFY(rootsOf(sampler, requestFor(*groom.counts, sampler, shown[i])) == before[i]);
         }
     }
 
