@@ -2,6 +2,7 @@
 #include "core/io/package.h"
 
 #include "core/base/hash.h"
+#include "core/hair/changes.h"
 #include "core/hair/generate.h"
 #include "core/io/groom_codec.h"
 #include "core/io/guarded.h"
@@ -22,9 +23,32 @@ using nlohmann::json;
 
 constexpr std::uint32_t blockHairs = 1u << 14;
 
-/// Generates part `number` for its box, numbers and digests, without keeping its hair.
+/// Boxes of a part at each frame.
+Result<std::vector<Bounds>> surveyFrames(Generator& generator, const Groom& groom, const PackagePart& part,
+                                         const GenerateOptions& still, const PackageFrames& frames,
+                                         const std::function<bool(float done)>& report) {
+    std::vector<Bounds> boxes(frames.count(), part.bounds);
+    Progress share;
+    for (std::size_t i = 0; isAnimated(groom) && i < boxes.size(); ++i) {
+        GenerateOptions options = still;
+        options.time = frames.timeOf(frames.first + static_cast<int>(i));
+        boxes[i] = {};
+        const float done = static_cast<float>(i) / static_cast<float>(boxes.size());
+        const auto made = generator.stream(
+            groom, options, blockHairs,
+            [&](const Strands& block) {
+                boxes[i].add(block.bounds());
+                return report(done);
+            },
+            share);
+        if (!made) return made.error();
+    }
+    return boxes;
+}
+
+/// Generates part `number` for its boxes, numbers and digests, without keeping its hair.
 Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::uint32_t number, std::uint32_t count,
-                               Hasher& all, Progress& progress) {
+                               const PackageFrames& frames, Hasher& all, Progress& progress) {
     // The share of this part in the whole; reports pass on the wish to stop as well.
     Progress share;
     const std::string text = "Writing part " + std::to_string(number + 1) + " of " + std::to_string(count);
@@ -36,8 +60,16 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
     part.file = packagePartName(number);
     part.range = *range;
     part.asked = static_cast<std::uint64_t>(std::max(groom.counts->hairs, 0));
+    // Frames take as long as the part itself, each.
+    const float frameShare = isAnimated(groom) ? static_cast<float>(frames.count()) : 0.0f;
+    const auto report = [&](float done) {
+        const float within = done / (1.0f + frameShare);
+        progress.report(0.5f * (static_cast<float>(number) + within) / static_cast<float>(count), text);
+        return !progress.cancelled();
+    };
+    const GenerateOptions options{.part = number, .partCount = count};
     const auto made = generator.stream(
-        groom, {.part = number, .partCount = count}, blockHairs,
+        groom, options, blockHairs,
         [&](const Strands& block) {
             block.addTo(own);
             block.addTo(all);
@@ -46,13 +78,15 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
             part.vertices += block.vertexCount();
             for (const SurfacePoint& root : block.roots) ++triangles[root.triangle];
             const double expected = static_cast<double>(std::max(groom.counts->hairs, 1)) / static_cast<double>(count);
-            const float within = std::min(static_cast<float>(static_cast<double>(part.hairs) / expected), 1.0f);
-            progress.report(0.5f * (static_cast<float>(number) + within) / static_cast<float>(count), text);
-            return !progress.cancelled();
+            return report(std::min(static_cast<float>(static_cast<double>(part.hairs) / expected), 1.0f));
         },
         share);
     if (!made) return made.error();
     part.digest = own.digest();
+    auto boxes = surveyFrames(generator, groom, part, options, frames,
+                              [&](float done) { return report(1.0f + done * frameShare); });
+    if (!boxes) return boxes.error();
+    part.frameBounds = std::move(*boxes);
     for (const auto& [triangle, hairs] : triangles) {
         part.triangles.push_back(triangle);
         part.triangleHairs.push_back(hairs);
@@ -62,8 +96,12 @@ Result<PackagePart> surveyPart(Generator& generator, const Groom& groom, std::ui
 
 /// All files, groom.json last.
 Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
-                                 std::shared_ptr<const Surface> surface) {
-    json manifest{{"format", packageFormat}, {"version", packageVersion}};
+                                 std::shared_ptr<const Surface> surface, const PackageFrames& frames,
+                                 const std::string& name) {
+    json manifest{{"format", packageFormat},
+                  {"version", frames.empty() ? packageVersionWithoutFrames : packageVersion}};
+    if (!frames.empty())
+        manifest["frames"] = {{"first", frames.first}, {"last", frames.last}, {"per_second", frames.perSecond}};
     Progress silent;
     auto shared = sharedBytes(groom, manifest, progress);
     if (!shared) return shared.error();
@@ -77,8 +115,9 @@ Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std
     generator.setSurface(std::move(surface));
     Hasher all;
     json list = json::array();
+    std::vector<PackagePart> surveyed;
     for (std::uint32_t i = 0; i < parts; ++i) {
-        auto part = surveyPart(generator, groom, i, parts, all, progress);
+        auto part = surveyPart(generator, groom, i, parts, frames, all, progress);
         if (!part) return part.error();
         const auto bytes = partBytes(*part, silent);
         if (!bytes) return bytes.error();
@@ -86,7 +125,11 @@ Result<std::uint64_t> writeFiles(const Groom& groom, const fs::path& folder, std
         if (!written) return written.error();
         part->bytes = *written;
         list.push_back(partToJson(*part));
+        surveyed.push_back(std::move(*part));
     }
+    const std::string rib = packageRibText(name, surveyed, frames);
+    if (auto done = writePackageFile(folder, packageRib, {rib.begin(), rib.end()}, progress); !done)
+        return done.error();
     manifest["parts"] = std::move(list);
     manifest["digest"] = hexDigest(all.digest());
     manifest["checksum"] = packageChecksum(manifest);
@@ -121,12 +164,13 @@ bool sameMesh(const SurfaceMesh& a, const SurfaceMesh& b) {
 }
 
 Result<void> writeAndCheck(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
-                           std::shared_ptr<const Surface> surface) {
+                           std::shared_ptr<const Surface> surface, const PackageFrames& frames) {
     if (!surface) surface = std::make_shared<const Surface>(groom.mesh);
     if (auto free = checkReplaceable(folder); !free) return free;
     auto safe = SafeFolder::create(folder);
     if (!safe) return safe.error();
-    const auto digest = writeFiles(groom, safe->path(), parts, progress, surface);
+    const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+    const auto digest = writeFiles(groom, safe->path(), parts, progress, surface, frames, name.string());
     if (!digest) return digest.error();
 
     progress.report(0.5f, "Checking the package");
@@ -150,12 +194,14 @@ Result<void> writeAndCheck(const Groom& groom, const fs::path& folder, std::uint
 }  // namespace
 
 Result<void> exportPackage(const Groom& groom, const fs::path& folder, std::uint32_t parts, Progress& progress,
-                           std::shared_ptr<const Surface> surface) {
+                           std::shared_ptr<const Surface> surface, const PackageFrames& frames) {
     const std::string name = folder.string();
     if (parts == 0) parts = static_cast<std::uint32_t>(std::max(groom.counts->parts, 1));
     if (parts > maxPackageParts)
         return Error{name + ": " + std::to_string(parts) + " parts are too many; the most is 4096."};
-    return guarded(name, [&] { return writeAndCheck(groom, folder, parts, progress, std::move(surface)); });
+    if (!frames.empty() && !areFrames(frames))
+        return Error{name + ": at most 10,000 frames can be exported, at a speed from 0.001 to 10,000 a second."};
+    return guarded(name, [&] { return writeAndCheck(groom, folder, parts, progress, std::move(surface), frames); });
 }
 
 }  // namespace whorl

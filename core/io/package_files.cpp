@@ -24,6 +24,19 @@ std::uint64_t digestFromText(const std::string& text) {
     return std::strtoull(text.c_str(), nullptr, 16);
 }
 
+static_assert(sizeof(Bounds) == 24, "stored as it is");
+
+/// True for the empty box and those with finite corners in order.
+bool isBox(const Bounds& bounds) {
+    const Bounds none;
+    if (bounds.min == none.min && bounds.max == none.max) return true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = bounds.min[axis], high = bounds.max[axis];
+        if (!std::isfinite(low) || !std::isfinite(high) || low > high) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::string packageChecksum(json manifest) {
@@ -44,6 +57,12 @@ json partToJson(const PackagePart& part) {
             {"digest", hexDigest(part.digest)}};
 }
 
+bool areFrames(const PackageFrames& frames) {
+    constexpr int farthest = 1000000;
+    return !frames.empty() && frames.first >= -farthest && frames.last <= farthest &&
+           frames.count() <= PackageFrames::most && frames.perSecond >= 1e-3 && frames.perSecond <= 1e4;
+}
+
 std::string packagePartName(std::uint32_t part) {
     char name[24];
     std::snprintf(name, sizeof name, "part-%04u.bin", part);
@@ -53,7 +72,7 @@ std::string packagePartName(std::uint32_t part) {
 bool isPackageFileName(const std::string& name) {
     const bool digits = name.size() == 13 &&
                         std::all_of(name.begin() + 5, name.begin() + 9, [](char c) { return c >= '0' && c <= '9'; });
-    return name == packageManifest || name == packageShared ||
+    return name == packageManifest || name == packageShared || name == packageRib ||
            (digits && name.starts_with("part-") && name.ends_with(".bin"));
 }
 
@@ -113,15 +132,16 @@ Result<OpenedDocument> groomFromShared(std::span<const std::uint8_t> bytes, cons
 
 Result<std::vector<std::uint8_t>> partBytes(const PackagePart& part, Progress& progress) {
     ContainerWriter writer;
-    const json manifest{{"first_unit", part.range.first},
-                        {"last_unit", part.range.last},
-                        {"asked", part.asked},
-                        {"hairs", part.hairs},
-                        {"vertices", part.vertices},
-                        {"bounds", boundsToJson(part.bounds)},
-                        {"digest", hexDigest(part.digest)},
-                        {"triangles", blobToJson(writer.addArray(part.triangles))},
-                        {"triangle_hairs", blobToJson(writer.addArray(part.triangleHairs))}};
+    json manifest{{"first_unit", part.range.first},
+                  {"last_unit", part.range.last},
+                  {"asked", part.asked},
+                  {"hairs", part.hairs},
+                  {"vertices", part.vertices},
+                  {"bounds", boundsToJson(part.bounds)},
+                  {"digest", hexDigest(part.digest)},
+                  {"triangles", blobToJson(writer.addArray(part.triangles))},
+                  {"triangle_hairs", blobToJson(writer.addArray(part.triangleHairs))}};
+    if (!part.frameBounds.empty()) manifest["frame_bounds"] = blobToJson(writer.addArray(part.frameBounds));
     return writer.finish(partKind, jsonText(manifest), progress);
 }
 
@@ -148,12 +168,21 @@ Result<PackagePart> partFromBytes(std::span<const std::uint8_t> bytes, const std
     if (fault.empty() && (triangles.bytes % 4 != 0 || triangles.bytes != hairs.bytes ||
                           !container->claim(triangles, triangles.bytes) || !container->claim(hairs, hairs.bytes)))
         fault = "its triangles are not there.";
+    const bool moving = fault.empty() && manifest->contains("frame_bounds");
+    const Blob frames = moving ? reader.blob("frame_bounds") : Blob{};
+    if (fault.empty() && (frames.bytes % sizeof(Bounds) != 0 || frames.bytes > PackageFrames::most * sizeof(Bounds) ||
+                          (moving && !container->claim(frames, frames.bytes))))
+        fault = "the boxes of its frames are not there.";
     if (!fault.empty()) return Error{name + " is broken: " + fault + " Export the package again."};
+    part.frameBounds.resize(static_cast<std::size_t>(frames.bytes / sizeof(Bounds)));
     part.triangles.resize(static_cast<std::size_t>(triangles.bytes / 4));
     part.triangleHairs.resize(part.triangles.size());
     const Container::Request requests[] = {{triangles, reinterpret_cast<std::uint8_t*>(part.triangles.data())},
-                                           {hairs, reinterpret_cast<std::uint8_t*>(part.triangleHairs.data())}};
+                                           {hairs, reinterpret_cast<std::uint8_t*>(part.triangleHairs.data())},
+                                           {frames, reinterpret_cast<std::uint8_t*>(part.frameBounds.data())}};
     if (auto done = container->inflate(requests, progress); !done) return done.error();
+    if (!std::ranges::all_of(part.frameBounds, isBox))
+        return Error{name + " is broken: a frame has no right bounding box. Export the package again."};
     return part;
 }
 

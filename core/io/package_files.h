@@ -11,13 +11,17 @@ namespace whorl {
 
 inline constexpr std::uint32_t maxPackageParts = 4096;
 inline constexpr const char* packageManifest = "groom.json";
+inline constexpr const char* packageRib = "groom.rib";
 inline constexpr const char* packageShared = "shared.bin";
 
 inline constexpr const char* packageFormat = "whorl-package";
-// 1 had ranges of hairs instead of the surface.
-inline constexpr std::uint64_t packageVersion = 2;
+// 1 had ranges of hairs instead of the surface; 3 has frames, and is written only with frames.
+inline constexpr std::uint64_t packageVersion = 3;
+inline constexpr std::uint64_t packageVersionWithoutFrames = 2;
 inline constexpr std::uint64_t maxPackageManifest = std::uint64_t{16} << 20;
 
+/// True for 1 to PackageFrames::most frames in order, at a speed above zero.
+bool areFrames(const PackageFrames& frames);
 /// Checksum of groom.json without the one that it holds.
 std::string packageChecksum(nlohmann::json manifest);
 /// Entry of a part in groom.json.
@@ -43,8 +47,11 @@ Result<OpenedDocument> groomFromShared(std::span<const std::uint8_t> bytes, cons
                                        const std::string& name, Progress& progress);
 
 Result<std::vector<std::uint8_t>> partBytes(const PackagePart& part, Progress& progress);
-/// Sets all but `file` and `bytes`.
+/// Sets all but `file` and `bytes`. Part files do not tell how many frames the package has.
 Result<PackagePart> partFromBytes(std::span<const std::uint8_t> bytes, const std::string& name, Progress& progress);
+
+/// Text of groom.rib: one primitive a part, with its box. `name`: the folder as the renderer will find it.
+std::string packageRibText(const std::string& name, const std::vector<PackagePart>& parts, const PackageFrames& frames);
 
 /// Null for an empty box, else its two corners.
 nlohmann::json boundsToJson(const Bounds& bounds);

@@ -33,7 +33,7 @@ Result<json> readManifest(const fs::path& folder) {
     if (fault.empty() && version > packageVersion)
         return Error{folder.string() + " was exported by a newer Whorl (format " + std::to_string(version) +
                      "; this one reads up to " + std::to_string(packageVersion) + "). Open it with that version."};
-    if (fault.empty() && version > 0 && version < packageVersion)
+    if (fault.empty() && version > 0 && version < packageVersionWithoutFrames)
         return Error{folder.string() +
                      " was exported by an older Whorl, whose hair had other roots. Export the package "
                      "again from its document."};
@@ -46,16 +46,36 @@ Result<json> readManifest(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+bool framesFromJson(const json& entry, PackageFrames& frames) {
+    const auto whole = [&](const char* key) {
+        return entry.contains(key) && entry[key].is_number_integer() && entry[key] >= -1000000 && entry[key] <= 1000000;
+    };
+    if (!whole("first") || !whole("last") || !entry.contains("per_second") || !entry["per_second"].is_number())
+        return false;
+    frames = {entry["first"].get<int>(), entry["last"].get<int>(), entry["per_second"].get<double>()};
+    return areFrames(frames);
+}
+
+}  // namespace
+
 Result<Package> readPackage(const fs::path& folder, Progress& progress) {
     const auto manifest = readManifest(folder);
     if (!manifest) return manifest.error();
     const std::string name = (folder / packageManifest).string();
     Package package;
-    reportUnknownKeys(*manifest, {"format", "version", "checksum", "shared", "parts", "digest", "groups", "counts"},
+    reportUnknownKeys(*manifest,
+                      {"format", "version", "checksum", "shared", "parts", "digest", "groups", "counts", "frames"},
                       name, package.problems);
     std::string fault;
     ManifestReader reader(*manifest, name, fault);
     package.digest = std::strtoull(reader.text("digest").c_str(), nullptr, 16);
+    if (reader.number("version", packageVersion) > packageVersionWithoutFrames) {
+        if (const json* frames = reader.object("frames");
+            frames && !framesFromJson(*frames, package.frames) && fault.empty())
+            fault = name + " has no right frames.";
+    }
     const json* shared = reader.object("shared");
     const json* parts = reader.array("parts");
     if (!fault.empty()) return Error{fault};
@@ -101,7 +121,8 @@ Result<Package> readPackage(const fs::path& folder, Progress& progress) {
         const bool covers = part->range.first == first && part->range.last >= first &&
                             (i + 1 < count || part->range.last == SurfaceCurve::end) &&
                             part->asked == static_cast<std::uint64_t>(std::max(package.groom.counts->hairs, 0));
-        if (part->bytes != size || partToJson(*part) != (*parts)[i] || !covers || hairs != part->hairs || !onMesh)
+        if (part->bytes != size || part->frameBounds.size() != package.frames.count() ||
+            partToJson(*part) != (*parts)[i] || !covers || hairs != part->hairs || !onMesh)
             return Error{(folder / file).string() + " does not fit " + packageManifest + ". Export the package again."};
         package.parts.push_back(std::move(*part));
     }

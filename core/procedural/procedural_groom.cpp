@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint32_t defaultBlockHairs = 4096;
 constexpr std::uint32_t mostBlockHairs = 1u << 16;
-// A level of detail makes hairs about this wide at most; thinner ones are seen as one grey.
-constexpr float pixelsAcross = 0.5f;
+// A level of detail makes hairs as wide as this; thinner ones fall between eight by eight samples of a pixel.
+constexpr float pixelsAcross = 0.125f;
 constexpr float leastShare = 0.001f;
 
 /// Sets each parameter that the JSON text names.
@@ -66,6 +66,7 @@ Result<std::unique_ptr<WhorlGroom>> prepare(Package package, std::string_view ov
     if (!prepared) return prepared.error();
     opened->prepared = std::move(*prepared);
     if (overrides.empty()) opened->parts = std::move(package.parts);
+    opened->frames = package.frames;
     opened->warnings = std::move(package.problems);
     opened->meanWidth = meanWidthOf(opened->groom());
     return opened;
@@ -132,7 +133,12 @@ const Bounds* storedBounds(const WhorlGroom& groom, const Wish& wish, float time
     const PackagePart* part = storedPart(groom, wish);
     if (!part) return nullptr;
     if (time == 0.0f || !groom.prepared->animated()) return &part->bounds;
-    return nullptr;
+    // The very time of a frame, as it was exported.
+    const double near = std::round(double{time} * groom.frames.perSecond);
+    if (!(near >= groom.frames.first && near <= groom.frames.last)) return nullptr;
+    const int frame = static_cast<int>(near);
+    if (groom.frames.timeOf(frame) != time) return nullptr;
+    return &part->frameBounds[static_cast<std::size_t>(frame - groom.frames.first)];
 }
 
 Result<Bounds> boundsOf(const WhorlGroom& groom, const Wish& wish) {

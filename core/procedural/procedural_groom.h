@@ -17,6 +17,7 @@ struct WhorlGroom {
     std::shared_ptr<const whorl::PreparedGroom> prepared;
     /// Those of the package; none when their numbers do not hold (overrides) or were never made (documents).
     std::vector<whorl::PackagePart> parts;
+    whorl::PackageFrames frames;
     std::uint32_t partCount = 1;
     std::vector<std::string> warnings;
     float meanWidth = 0.0f;  ///< metres, of an average hair without its maps

@@ -205,8 +205,12 @@ int whorl_is_animated(const WhorlGroom* groom) {
     return groom && groom->prepared->animated() ? 1 : 0;
 }
 
-int whorl_frames(const WhorlGroom*, int32_t*, int32_t*, double*) {
-    return 0;
+int whorl_frames(const WhorlGroom* groom, int32_t* first, int32_t* last, double* frames_per_second) {
+    if (!groom || groom->frames.empty()) return 0;
+    if (first) *first = groom->frames.first;
+    if (last) *last = groom->frames.last;
+    if (frames_per_second) *frames_per_second = groom->frames.perSecond;
+    return 1;
 }
 
 const char* whorl_warning(const WhorlGroom* groom, uint32_t index) {

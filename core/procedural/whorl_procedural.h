@@ -122,7 +122,7 @@ typedef struct WhorlRequest {
 
 /* The share that gives about that number of hairs in the whole groom. */
 WHORL_API float whorl_share_for_count(const WhorlGroom* groom, uint64_t hairs);
-/* The share at which hairs are half a pixel wide where a metre has that many pixels; 1 where they are wider anyway. */
+/* The share at which hairs are an eighth of a pixel wide where a metre has that many pixels; 1 where they are wider. */
 WHORL_API float whorl_share_for_scale(const WhorlGroom* groom, float pixels_per_metre);
 /* The same for a box (see whorl_box) that covers `pixels` of the picture: RenderMan's detail. */
 WHORL_API float whorl_share_for_pixels(const WhorlGroom* groom, const float box[6], float pixels);

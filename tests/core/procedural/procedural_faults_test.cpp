@@ -176,6 +176,15 @@ private Q_SLOTS:
         QVERIFY(lying([](json& m) { m["counts"]["hairs"] = 5; }));
         // Out of range: the parameter keeps its default, which makes other hair than the parts say.
         QVERIFY(lying([](json& m) { m["counts"]["hairs"] = 4e18; }));
+        QVERIFY(lying([](json& m) { m["version"] = 3; }));
+        QVERIFY(lying([](json& m) {
+            m["version"] = 3;
+            m["frames"] = {{"first", 1}, {"last", 2}, {"per_second", 24}};
+        }));
+        QVERIFY(lying([](json& m) {
+            m["version"] = 3;
+            m["frames"] = {{"first", 1}, {"last", 2e9}, {"per_second", 24}};
+        }));
         lying([](json& m) { m["groups"] = json::array(); });
         QVERIFY(survives(Opened(bad)));
         for (const char* number : {"1e999", "NaN", "-Infinity", "null"}) {
@@ -247,6 +256,7 @@ private Q_SLOTS:
     void tooLittleMemory() {
         Groom larger = groomOn(sphere(24, 36), 200, 12);
         larger.counts.edit().hairs = 3000;
+        larger.groups.edit()[0].params.general.keepOutside = false;
         const fs::path package = exported(larger, scratchFolder("procedural-memory") / "a.groom", 1);
         WhorlError error{""};
         const auto fails = [&](long after, auto&& call) {

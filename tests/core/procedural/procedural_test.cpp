@@ -158,14 +158,14 @@ private Q_SLOTS:
         }
         QCOMPARE(whorl_share_for_count(opened, 100), 0.25f);
         QCOMPARE(whorl_share_for_count(opened, 1000), 1.0f);
-        // Half a pixel wide: 0.06 mm at 2000 pixels a metre are 0.12 pixels.
-        QVERIFY(std::abs(whorl_share_for_scale(opened, 2000.0f) - 0.24f) < 1e-4f);
+        // An eighth of a pixel wide: 0.06 mm at 500 pixels a metre are 0.03 pixels.
+        QVERIFY(std::abs(whorl_share_for_scale(opened, 500.0f) - 0.24f) < 1e-4f);
         QCOMPARE(whorl_share_for_scale(opened, 1e9f), 1.0f);
         const float infinite = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
         for (const float number : {infinite, none, -1.0f, 0.0f}) QCOMPARE(whorl_share_for_scale(opened, number), 1.0f);
         const float cube[6] = {0, 0.1f, 0, 0.1f, 0, 0.1f};
-        // A cube of 0.1 m shows 0.015 square metres on average: 60,000 pixels at 2000 a metre.
-        QVERIFY(std::abs(whorl_share_for_pixels(opened, cube, 60000.0f) - 0.24f) < 1e-4f);
+        // A cube of 0.1 m shows 0.015 square metres on average: 3750 pixels at 500 a metre.
+        QVERIFY(std::abs(whorl_share_for_pixels(opened, cube, 3750.0f) - 0.24f) < 1e-4f);
         QCOMPARE(whorl_share_for_pixels(opened, cube, infinite), 1.0f);
         QCOMPARE(whorl_share_for_pixels(opened, nullptr, 1.0f), 1.0f);
     }
@@ -316,6 +316,44 @@ private Q_SLOTS:
         whorl_close(nullptr);
         QCOMPARE(whorl_part_count(nullptr), 0u);
         QVERIFY(whorl_version() / 65536 == WHORL_API_MAJOR && std::strlen(whorl_version_text()) > 0);
+    }
+
+    void framesKeepTheirBoxes() {
+        const Groom groom = animatedGroom();
+        const fs::path package = scratchFolder("procedural-frames") / "a.groom";
+        Progress progress;
+        const PackageFrames frames{-1, 3, 23.976};
+        QVERIFY(exportPackage(groom, package, 2, progress, nullptr, frames).ok());
+        const auto read = openPackage(package, progress);
+        QVERIFY(read.ok() && read->frames == frames && read->parts[1].frameBounds.size() == 5);
+        const Opened opened(package);
+        QVERIFY2(opened, opened.error.text);
+        std::int32_t first = 0, last = 0;
+        double perSecond = 0.0;
+        QVERIFY(whorl_frames(opened, &first, &last, &perSecond) == 1 &&
+                whorl_frames(opened, nullptr, nullptr, nullptr) == 1);
+        QVERIFY(first == -1 && last == 3 && perSecond == 23.976);
+        std::vector<glm::vec3> corners;
+        for (int frame = -1; frame <= 3; ++frame) {
+            const float time = static_cast<float>(frame / perSecond);
+            const Bounds hair =
+                Generator().generate(groom, {.part = 1, .partCount = 2, .time = time}, progress)->bounds();
+            const Bounds stored = read->parts[1].frameBounds[static_cast<std::size_t>(frame + 1)];
+            QVERIFY(hair.min == stored.min && hair.max == stored.max);
+            WhorlRequest request = WHORL_REQUEST_INIT;
+            request.part = 1;
+            request.times = &time;
+            request.time_count = 1;
+            float box[6];
+            QCOMPARE(whorl_box(opened, &request, box, nullptr), WHORL_OK);
+            QVERIFY(box[0] == hair.min.x && box[3] == hair.max.y && box[5] == hair.max.z);
+            corners.push_back(hair.min);
+        }
+        QVERIFY(corners[0] != corners[4]);
+        for (const PackageFrames& bad :
+             {PackageFrames{0, 10000, 24.0}, PackageFrames{0, 1, 0.0}, PackageFrames{0, 1, std::nan("")}})
+            QVERIFY(!exportPackage(groom, package, 2, progress, nullptr, bad).ok());
+        QVERIFY(!whorl_frames(Opened(exported(groom, package, 2)), &first, &last, &perSecond));
     }
 
     void theCallbackStops() {
