@@ -15,6 +15,13 @@ std::vector<std::uint32_t> allOf(const GrownHairs& grown) {
     return which;
 }
 
+void Batch::inOrder() {
+    order.resize(roots.size());
+    std::iota(order.begin(), order.end(), 0u);
+    free.clear();
+    gone.clear();
+}
+
 std::size_t mostHairsOfRoot(const Groom& groom) {
     int most = 1;
     for (const Group& group : *groom.groups) most = std::max(most, group.params.strands.hairs);
@@ -60,6 +67,7 @@ std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const Hai
 }
 
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress) {
+    batch.inOrder();
     batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress, std::move(batch.bindings));
     batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress);
     batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
@@ -107,7 +115,8 @@ void growAtTime(const HairParts& parts, const HairLookups& lookups, float lod, c
                               parts.guard ? &*parts.guard : nullptr,
                               lookups.chain,
                               parts.clumps,
-                              batch.centres};
+                              batch.centres,
+                              batch.order};
     const GrownHairs grown = layOut(sources, strands);
     evaluateHairs(sources, grown, allOf(grown), strands, progress);
 }
@@ -161,6 +170,7 @@ Result<HairCount> countBatches(const HairParts& parts, const HairLookups& lookup
     Batch block;
     const auto add = [&](std::span<const HairRoot> roots) {
         block.roots.assign(roots.begin(), roots.end());
+        block.inOrder();
         block.bindings = bindHairs(parts.groom, parts.index, block.roots, progress, std::move(block.bindings));
         block.traits = traitsFor(lookups.traits, block.roots, wish.lod, progress);
         if (progress.cancelled()) return true;

@@ -50,8 +50,15 @@ struct HairLookups {
     explicit HairLookups(const Groom& groom, float time = 0.0f) : density(groom), traits(groom, time), chain(groom) {}
 };
 
+/// Roots have slots in these arrays. A batch that was grown at once has them in order of the curve; dabs leave slots
+/// and take others (see batch_edit.h), and `order` lists those in use.
 struct Batch {
     std::vector<HairRoot> roots;
+    std::vector<std::uint32_t> order;
+    std::vector<std::uint32_t> free;
+    std::vector<std::uint32_t> gone;  // free from the next edit on
+    /// All roots, as they are.
+    void inOrder();
     Bindings bindings;
     std::vector<HairTraits> traits;
     CentresOfHairs centres;
@@ -68,7 +75,8 @@ struct Batch {
                 parts.guard ? &*parts.guard : nullptr,
                 lookups.chain,
                 parts.clumps,
-                centres};
+                centres,
+                order};
     }
 };
 
@@ -82,7 +90,7 @@ std::vector<std::uint32_t> allOf(const GrownHairs& grown);
 std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,
                                   Progress& progress);
 
-/// All of the hair of `batch.roots`. Unfinished when cancelled.
+/// All of the hair of `batch.roots`, which are in order. Unfinished when cancelled.
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress);
 
 /// See Generator::stream.

@@ -8,15 +8,16 @@
 namespace whorl {
 namespace {
 
-bool sameMap(const Groom& a, const Groom& b, const std::string& name) {
-    const auto entry = [&](const Groom& groom) -> const MapSet::Entry* {
-        for (const MapSet::Entry& e : groom.maps.entries())
-            if (e.name == name) return &e;
-        return nullptr;
-    };
-    if (name.empty()) return true;
-    const MapSet::Entry *x = entry(a), *y = entry(b);
-    return x && y ? x->map.sameAs(y->map) : x == y;
+// The two grooms, and where to note maps that differ in texels only (null: such maps differ).
+struct Both {
+    const Groom& a;
+    const Groom& b;
+    TouchedMaps* touched = nullptr;
+};
+
+bool sameMap(const Both& both, const std::string& name) {
+    if (both.touched) return both.touched->add(name);
+    return name.empty() || both.a.maps.find(name) == both.b.maps.find(name);
 }
 
 // True when `same` says so of every pair of groups; also asked of shared ones, because their maps may differ.
@@ -30,25 +31,25 @@ bool allGroups(const Groom& a, const Groom& b, Same&& same) {
 
 // True when these driven parameters of two blocks have the same values and the same maps with the same texels.
 template <class Block, class... Member>
-bool sameNumbers(const Groom& a, const Groom& b, const Block& x, const Block& y, Member... member) {
-    return ((x.*member == y.*member && sameMap(a, b, (x.*member).map)) && ...);
+bool sameNumbers(const Both& both, const Block& x, const Block& y, Member... member) {
+    return ((x.*member == y.*member && sameMap(both, (x.*member).map)) && ...);
 }
 
 // The same for every parameter of a block.
 template <class Block>
-bool sameBlock(const Groom& a, const Groom& b, const Block& x, const Block& y) {
+bool sameBlock(const Both& both, const Block& x, const Block& y) {
     if (!(x == y)) return false;
     Block copy = x;
     const std::vector<ParamRef> params = paramsOf(copy);
     return std::all_of(params.begin(), params.end(), [&](const ParamRef& param) {
         const std::string* map = paramMap(param);
-        return !map || sameMap(a, b, *map);
+        return !map || sameMap(both, *map);
     });
 }
 
 // The modifiers that `wanted` picks, changed by `as`: names do not count.
 template <class Wanted, class As>
-bool sameModifiers(const Groom& a, const Groom& b, const HairParams& x, const HairParams& y, Wanted&& wanted, As&& as) {
+bool sameModifiers(const Both& both, const HairParams& x, const HairParams& y, Wanted&& wanted, As&& as) {
     const auto picked = [&](const HairParams& params) {
         std::vector<Modifier> list;
         for (const Modifier& modifier : params.modifiers) {
@@ -62,7 +63,7 @@ bool sameModifiers(const Groom& a, const Groom& b, const HairParams& x, const Ha
     const std::vector<Modifier> one = picked(x), other = picked(y);
     if (one.size() != other.size()) return false;
     for (std::size_t i = 0; i < one.size(); ++i)
-        if (!sameBlock(a, b, one[i], other[i])) return false;
+        if (!sameBlock(both, one[i], other[i])) return false;
     return true;
 }
 
@@ -86,15 +87,19 @@ bool usesTriangles(const Groom& groom) {
 
 }  // namespace
 
-bool sameDensity(const Groom& a, const Groom& b) {
-    if (!a.mesh.sameAs(b.mesh)) return false;
-    if (!a.partSettings.sameAs(b.partSettings) && *a.partSettings != *b.partSettings) return false;
-    if (a.counts->groupMap != b.counts->groupMap || !sameMap(a, b, a.counts->groupMap.name)) return false;
+bool sameGrowth(const Groom& a, const Groom& b) {
+    return a.mesh.sameAs(b.mesh) && (a.partSettings.sameAs(b.partSettings) || *a.partSettings == *b.partSettings);
+}
+
+bool sameDensity(const Groom& a, const Groom& b, TouchedMaps* touched) {
+    const Both both{a, b, touched};
+    if (!sameGrowth(a, b)) return false;
+    if (a.counts->groupMap != b.counts->groupMap || !sameMap(both, a.counts->groupMap.name)) return false;
     const bool numbers = allGroups(
         a, b, [](const HairParams& x, const HairParams& y) { return x.general.density == y.general.density; });
     if (!numbers) return false;
     for (const Group& group : *a.groups)
-        if (!sameMap(a, b, group.params.general.density.map)) return false;
+        if (!sameMap(both, group.params.general.density.map)) return false;
     return true;
 }
 
@@ -115,25 +120,27 @@ bool sameSegments(const Groom& a, const Groom& b) {
                      [](const HairParams& x, const HairParams& y) { return x.general.segments == y.general.segments; });
 }
 
-bool sameShapeParameters(const Groom& a, const Groom& b) {
+bool sameShapeParameters(const Groom& a, const Groom& b, TouchedMaps* touched) {
+    const Both both{a, b, touched};
     if (a.counts->seed != b.counts->seed) return false;
     return allGroups(a, b, [&](const HairParams& x, const HairParams& y) {
         const GeneralParams &g = x.general, &h = y.general;
         return g.keepOutside == h.keepOutside && g.skipThreshold == h.skipThreshold &&
-               sameBlock(a, b, x.strands, y.strands) &&
-               (!mindsThickness(x) || sameNumbers(a, b, g, h, &GeneralParams::rootThickness)) &&
+               sameBlock(both, x.strands, y.strands) &&
+               (!mindsThickness(x) || sameNumbers(both, g, h, &GeneralParams::rootThickness)) &&
                sameModifiers(
-                   a, b, x, y, [](const Modifier& m) { return !isTaper(m); }, [](Modifier&) {}) &&
-               sameNumbers(a, b, g, h, &GeneralParams::cut, &GeneralParams::scale, &GeneralParams::randomScale,
+                   both, x, y, [](const Modifier& m) { return !isTaper(m); }, [](Modifier&) {}) &&
+               sameNumbers(both, g, h, &GeneralParams::cut, &GeneralParams::scale, &GeneralParams::randomScale,
                            &GeneralParams::displacement) &&
-               sameNumbers(a, b, x.frizz, y.frizz, &FrizzParams::root, &FrizzParams::tip, &FrizzParams::frequency,
+               sameNumbers(both, x.frizz, y.frizz, &FrizzParams::root, &FrizzParams::tip, &FrizzParams::frequency,
                            &FrizzParams::animation, &FrizzParams::speed) &&
                x.frizz.direction == y.frizz.direction &&
-               sameNumbers(a, b, x.kink, y.kink, &KinkParams::root, &KinkParams::tip, &KinkParams::frequency);
+               sameNumbers(both, x.kink, y.kink, &KinkParams::root, &KinkParams::tip, &KinkParams::frequency);
     });
 }
 
 bool sameClumps(const Groom& a, const Groom& b) {
+    const Both both{a, b};
     if (a.counts->seed != b.counts->seed) return false;
     // Of a clump that is on, what only hairs mind is set to one and the same.
     const auto centresOnly = [](Modifier& modifier) {
@@ -146,8 +153,9 @@ bool sameClumps(const Groom& a, const Groom& b) {
         return m.on && m.amount.value > 0.0f && std::holds_alternative<ClumpParams>(m.params);
     };
     return allGroups(a, b, [&](const HairParams& x, const HairParams& y) {
-        return sameModifiers(a, b, x, y, isClump, centresOnly) &&
-               sameNumbers(a, b, x.general, y.general, &GeneralParams::scale, &GeneralParams::displacement);
+        const bool none = std::none_of(x.modifiers.begin(), x.modifiers.end(), isClump);
+        return sameModifiers(both, x, y, isClump, centresOnly) &&
+               (none || sameNumbers(both, x.general, y.general, &GeneralParams::scale, &GeneralParams::displacement));
     });
 }
 
@@ -156,12 +164,13 @@ bool isAnimated(const Groom& groom) {
                        [](const Group& group) { return group.params.frizz.animation.value > 0.0f; });
 }
 
-bool sameLookParameters(const Groom& a, const Groom& b) {
+bool sameLookParameters(const Groom& a, const Groom& b, TouchedMaps* touched) {
+    const Both both{a, b, touched};
     if (a.counts->seed != b.counts->seed) return false;
     return allGroups(a, b, [&](const HairParams& x, const HairParams& y) {
-        return x.colour.mutant == y.colour.mutant && sameModifiers(a, b, x, y, isTaper, [](Modifier&) {}) &&
-               sameNumbers(a, b, x.general, y.general, &GeneralParams::rootThickness, &GeneralParams::tipThickness) &&
-               sameNumbers(a, b, x.colour, y.colour, &ColourParams::root, &ColourParams::tip,
+        return x.colour.mutant == y.colour.mutant && sameModifiers(both, x, y, isTaper, [](Modifier&) {}) &&
+               sameNumbers(both, x.general, y.general, &GeneralParams::rootThickness, &GeneralParams::tipThickness) &&
+               sameNumbers(both, x.colour, y.colour, &ColourParams::root, &ColourParams::tip,
                            &ColourParams::rootOpacity, &ColourParams::tipOpacity, &ColourParams::hueVariation,
                            &ColourParams::valueVariation, &ColourParams::mutants);
     });

@@ -22,19 +22,36 @@ std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const Ha
     return traits;
 }
 
+std::uint32_t verticesOfRoot(const HairSources& sources, std::uint32_t root) {
+    const HairTraits& traits = sources.traits[root];
+    const HairParams& params = (*sources.groom.groups)[sources.roots[root].group].params;
+    const bool grows = sources.bindings.counts[root] > 0 && traits.scale > 0.0f;
+    return grows ? cutEnd(traits.cut, params.general.segments).vertices : 0;
+}
+
+void setHair(const HairSources& sources, const GrownHairs& grown, std::uint32_t hair, Strands& strands) {
+    const HairRoot& root = sources.roots[grown.roots[hair]];
+    const std::uint32_t first = grown.firstStrand[hair];
+    for (std::uint32_t strand = first; strand < grown.firstStrand[hair + 1]; ++strand) {
+        strands.ids[strand] = root.id;
+        strands.members[strand] = static_cast<std::uint8_t>(strand - first);
+        strands.roots[strand] = root.point;
+        strands.rootUvs[strand] = root.uv;
+        strands.groups[strand] = root.group;
+    }
+}
+
 GrownHairs layOut(const HairSources& sources, Strands& strands) {
     strands.clear();
     GrownHairs grown;
     std::uint32_t vertices = 0;
-    for (std::uint32_t i = 0; i < sources.roots.size(); ++i) {
+    for (const std::uint32_t i : sources.order) {
+        const std::uint32_t each = verticesOfRoot(sources, i);
+        if (each == 0) continue;
         const HairRoot& root = sources.roots[i];
-        const HairTraits& traits = sources.traits[i];
-        const HairParams& params = (*sources.groom.groups)[root.group].params;
-        const CutEnd end = cutEnd(traits.cut, params.general.segments);
-        if (end.vertices == 0 || sources.bindings.counts[i] == 0 || !(traits.scale > 0.0f)) continue;
-        const int hairs = std::max(params.strands.hairs, 1);
+        const int hairs = std::max((*sources.groom.groups)[root.group].params.strands.hairs, 1);
         for (int member = 0; member < hairs; ++member) {
-            vertices += end.vertices;
+            vertices += each;
             strands.firstVertex.push_back(vertices);
             strands.ids.push_back(root.id);
             strands.members.push_back(static_cast<std::uint8_t>(member));
@@ -72,12 +89,13 @@ void evaluateHairs(const HairSources& sources, const GrownHairs& grown, std::spa
     });
 }
 
-void renewLook(const HairSources& sources, const GrownHairs& grown, Strands& strands) {
+void renewLook(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
+               Strands& strands) {
     const std::vector<GroupTables> tables = makeGroupTables(sources.groom);
-    parallelFor(grown.count(), blockHairs, [&](std::size_t begin, std::size_t end) {
+    parallelFor(which.size(), blockHairs, [&](std::size_t begin, std::size_t end) {
         Evaluator evaluator(sources, grown, strands);
         for (std::size_t i = begin; i < end; ++i)
-            evaluator.setLook(tables[sources.roots[grown.roots[i]].group], static_cast<std::uint32_t>(i));
+            evaluator.setLook(tables[sources.roots[grown.roots[which[i]]].group], which[i]);
     });
 }
 

@@ -27,6 +27,7 @@ struct HairSources {
     const ModifierChain& chain;
     const ClumpSet& clumps;
     const CentresOfHairs& centres;
+    const std::vector<std::uint32_t>& order;  ///< the roots that count, by place, in order of the curve
 };
 
 /// The roots that grow hair, in order, and the strands of each: strands [firstStrand[i], firstStrand[i + 1]) of the
@@ -40,6 +41,12 @@ struct GrownHairs {
 /// Traits of all roots (some left unset when cancelled).
 std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress);
 
+/// Vertices of the hairs that a root grows; zero where it grows none.
+std::uint32_t verticesOfRoot(const HairSources& sources, std::uint32_t root);
+
+/// Fills in all that is one a hair for hair `hair` (a place in `grown`) and its members, but where its vertices begin.
+void setHair(const HairSources& sources, const GrownHairs& grown, std::uint32_t hair, Strands& strands);
+
 /// Makes room in `strands` for every root that grows a hair and fills in all that is one a hair.
 GrownHairs layOut(const HairSources& sources, Strands& strands);
 
@@ -48,7 +55,8 @@ GrownHairs layOut(const HairSources& sources, Strands& strands);
 void evaluateHairs(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
                    Strands& strands, Progress& progress);
 
-/// Gives all strands the widths and colours of their traits again; their shape stays.
-void renewLook(const HairSources& sources, const GrownHairs& grown, Strands& strands);
+/// Gives the hairs `which` the widths and colours of their traits again; their shape stays.
+void renewLook(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
+               Strands& strands);
 
 }  // namespace whorl

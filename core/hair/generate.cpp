@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
 
-#include "core/base/cow.h"
-#include "core/hair/batch.h"
 #include "core/hair/changes.h"
-#include "core/hair/thin.h"
+#include "core/hair/kept_hair.h"
 
 #include <algorithm>
 #include <new>
@@ -21,74 +19,50 @@ Error tooLarge(std::uint64_t hairs) {
             "more parts."};
 }
 
-// Above this many bytes of hair no memory is kept for the next copy.
-constexpr std::size_t mostSpare = std::size_t{256} << 20;
-
 }  // namespace
 
 struct Generator::State {
     HairParts parts;     // its groom is that of the last call that ended well
     bool valid = false;  // the parts belong together
     std::shared_ptr<const Surface> surface;
+    KeptHair kept;  // by generate()
+    float keptTime = 0.0f;
 
-    // Hair kept by generate().
-    bool batchValid = false;
-    HairWish batchWish;
-    float batchTime = 0.0f;
-    Batch batch;
-    std::shared_ptr<const Strands> thin;  // of `batch.strands` without skipped vertices, or null
-    std::shared_ptr<Strands> spare;  // what was shared before `batch.strands`; used again when nobody holds it any more
-
-    // What the newest groom changed, worked out by prepare().
-    bool densityChanged = true;
-    bool bindingsChanged = true;
-    bool shapeChanged = true;  // by parameters, of every hair
-    bool lookChanged = true;
-    bool shapesRebuilt = true;
-    bool clumpsRebuilt = true;
-    std::vector<std::uint8_t> changedBlocks;
-    std::vector<std::vector<std::uint8_t>> movedCentres;  // one list a clump
+    HairChanges changes;  // by the newest groom, worked out by prepare()
 
     Result<void> prepare(const Groom& next, Progress& progress);
+    Result<void> prepareSampler(const Groom& next, bool known, Progress& progress);
     void prepareClumps(bool scatterChanged, Progress& progress);
-    std::vector<std::uint8_t> changedGuides() const;
     void guardSkin();
-
-    void ownStrands(bool keep);
-    void renewBatch(const HairLookups& lookups, const HairWish& wish, Progress& progress);
-    std::vector<std::uint32_t> hairsOfChangedGuides() const;
 };
 
 // Brings sampler, index and shapes up to `next`, and notes what changed. Cancelled: everything is made anew next time.
 Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     const bool known = valid;
-    const Groom& groom = parts.groom;
     valid = false;
-    densityChanged = !known || !sameDensity(groom, next);
-    bindingsChanged = !known || !sameBindings(groom, next);
-    shapeChanged = !known || !sameShapeParameters(groom, next);
-    lookChanged = !known || !sameLookParameters(groom, next);
-    const bool scatterChanged = densityChanged;
-    clumpsRebuilt = densityChanged || bindingsChanged || !sameClumps(groom, next) || !sameSegments(groom, next);
-    shapesRebuilt = !known || bindingsChanged || !sameSegments(groom, next);
-    changedBlocks.assign(next.guides.blockCount(), 1);
-    for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
-        changedBlocks[b] = !next.guides.blockSameAs(b, groom.guides);
-
-    if (densityChanged) {
-        const RootSampler* earlier = groom.mesh.sameAs(next.mesh) ? &parts.sampler : nullptr;
-        Result<RootSampler> built = RootSampler::build(next, DensityLookup(next), progress, earlier);
-        if (!built) {
-            batchValid = false;
-            return built.error();
-        }
-        parts.sampler = std::move(*built);
+    changes = HairChanges{};
+    const Groom& before = parts.groom;
+    const bool scatterChanged = !known || !sameGrowth(before, next);
+    if (Result<void> ready = prepareSampler(next, known, progress); !ready) return ready;
+    if (known) {
+        changes.bindings = !sameBindings(before, next);
+        changes.shapeMaps.emplace(before, next);
+        changes.shape = !sameShapeParameters(before, next, &*changes.shapeMaps);
+        changes.lookMaps.emplace(before, next);
+        changes.look = !sameLookParameters(before, next, &*changes.lookMaps);
+        changes.clumps = changes.density || changes.bindings || !changes.places.empty() || !sameClumps(before, next) ||
+                         !sameSegments(before, next);
+        changes.shapes = changes.bindings || !sameSegments(before, next);
     }
-    if (bindingsChanged) parts.index = GuideIndex(next);
-    if (shapesRebuilt) parts.shapes = GuideShapes(next);
-    for (std::size_t b = 0; !shapesRebuilt && b < changedBlocks.size(); ++b)
-        if (changedBlocks[b]) parts.shapes.update(next, b);
-    if (densityChanged || *groom.counts != *next.counts) parts.countedFor = -1.0;
+    changes.blocks.assign(next.guides.blockCount(), 1);
+    for (std::size_t b = 0; !changes.shapes && b < changes.blocks.size(); ++b)
+        changes.blocks[b] = !next.guides.blockSameAs(b, before.guides);
+
+    if (changes.bindings) parts.index = GuideIndex(next);
+    if (changes.shapes) parts.shapes = GuideShapes(next);
+    for (std::size_t b = 0; !changes.shapes && b < changes.blocks.size(); ++b)
+        if (changes.blocks[b]) parts.shapes.update(next, b);
+    if (!known || *before.counts != *next.counts) parts.countedFor = -1.0;
     parts.groom = next;
     prepareClumps(scatterChanged, progress);
     guardSkin();
@@ -96,14 +70,33 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     return {};
 }
 
+// Where only texels of maps differ, it is brought up to them.
+Result<void> Generator::State::prepareSampler(const Groom& next, bool known, Progress& progress) {
+    const DensityLookup density(next);
+    TouchedMaps maps(parts.groom, next);
+    changes.density = !known || !sameDensity(parts.groom, next, &maps);
+    if (!changes.density && maps.empty()) return {};
+    parts.countedFor = -1.0;
+    if (!changes.density && parts.sampler.update(next, density, maps, changes.places)) return {};
+    changes.density = true;
+    const RootSampler* earlier = parts.groom.mesh.sameAs(next.mesh) ? &parts.sampler : nullptr;
+    Result<RootSampler> built = RootSampler::build(next, density, progress, earlier);
+    if (!built) {
+        kept.drop();
+        return built.error();
+    }
+    parts.sampler = std::move(*built);
+    return {};
+}
+
 void Generator::State::prepareClumps(bool scatterChanged, Progress& progress) {
     const ModifierChain chain(parts.groom);
-    movedCentres.clear();
-    if (clumpsRebuilt) {
+    if (chain.clumps().empty() && parts.clumps.clumps.empty()) {
+        changes.clumps = false;
+    } else if (changes.clumps) {
         parts.clumps.build(parts.groom, chain, parts.index, parts.shapes, scatterChanged, progress);
-    } else if (!chain.clumps().empty() && std::any_of(changedBlocks.begin(), changedBlocks.end(),
-                                                      [](std::uint8_t changed) { return changed != 0; })) {
-        parts.clumps.renew(parts.groom, chain, parts.shapes, changedGuides(), movedCentres);
+    } else if (std::any_of(changes.blocks.begin(), changes.blocks.end(), [](std::uint8_t b) { return b != 0; })) {
+        parts.clumps.renew(parts.groom, chain, parts.shapes, changedGuides(parts.groom, changes), changes.movedCentres);
     }
 }
 
@@ -115,88 +108,6 @@ void Generator::State::guardSkin() {
     }
     if (!surface) surface = std::make_shared<Surface>(parts.groom.mesh);
     if (!parts.guard || &parts.guard->skin() != &surface->skin()) parts.guard.emplace(surface->sharedSkin());
-}
-
-std::vector<std::uint8_t> Generator::State::changedGuides() const {
-    const Groom& groom = parts.groom;
-    std::vector<std::uint8_t> changed(groom.guides.count(), 0);
-    for (std::size_t b = 0; b < changedBlocks.size(); ++b) {
-        if (!changedBlocks[b]) continue;
-        std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(groom.guides.firstOfBlock(b)),
-                    groom.guides.block(b).count(), std::uint8_t{1});
-    }
-    return changed;
-}
-
-// Those that a changed guide shapes, or the middle of whose lock has moved.
-std::vector<std::uint32_t> Generator::State::hairsOfChangedGuides() const {
-    const std::vector<std::uint8_t> changed = changedGuides();
-    std::vector<std::uint32_t> which;
-    const Bindings& bindings = batch.bindings;
-    for (std::uint32_t i = 0; i < batch.grown.count(); ++i) {
-        const std::size_t hair = batch.grown.roots[i];
-        const std::uint32_t* guides = &bindings.guides[hair * bindings.perHair];
-        bool touched =
-            std::any_of(guides, guides + bindings.counts[hair], [&](std::uint32_t g) { return changed[g] != 0; });
-        for (std::size_t c = 0; !touched && c < movedCentres.size(); ++c) {
-            const std::uint32_t centre = batch.centres[c][hair];
-            touched = centre != ClumpCentres::none && movedCentres[c][centre] != 0;
-        }
-        if (touched) which.push_back(i);
-    }
-    return which;
-}
-
-// Makes batch.strands writable. Somebody holds them: writes go to other memory, with the same content if `keep`.
-void Generator::State::ownStrands(bool keep) {
-    if (batch.strands.use_count() == 1) {
-        acquireSole(batch.strands);
-        return;
-    }
-    std::shared_ptr<Strands> other;
-    if (spare && spare.use_count() == 1) {
-        acquireSole(spare);
-        other = std::move(spare);
-    } else {
-        other = std::make_shared<Strands>();
-    }
-    if (keep) *other = *batch.strands;
-    spare = batch.strands->bytes() <= mostSpare ? batch.strands : nullptr;
-    batch.strands = std::move(other);
-}
-
-// The kept batch brought up to date: only what the change touches is made again.
-void Generator::State::renewBatch(const HairLookups& lookups, const HairWish& wish, Progress& progress) {
-    const bool rootsKept = batchValid && !densityChanged && batchWish == wish;
-    batchValid = false;
-    batchWish = wish;
-    const Groom& groom = parts.groom;
-    if (!rootsKept) {
-        thin.reset();
-        ownStrands(false);
-        const RootSource source{*groom.mesh, parts.sampler, lookups.density, wish.request};
-        batch.roots = makeRoots(source, wish.range, progress);
-        growBatch(parts, lookups, wish.lod, batch, progress);
-        batchValid = !progress.cancelled();
-        return;
-    }
-    if (bindingsChanged)
-        batch.bindings = bindHairs(groom, parts.index, batch.roots, progress, std::move(batch.bindings));
-    if (shapeChanged || lookChanged) batch.traits = traitsFor(lookups.traits, batch.roots, wish.lod, progress);
-    if (clumpsRebuilt) batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
-    if (progress.cancelled()) return;
-    const HairSources sources = batch.sourcesOf(parts, lookups);
-    const bool all = bindingsChanged || shapeChanged || shapesRebuilt || clumpsRebuilt;
-    const std::vector<std::uint32_t> some = all ? std::vector<std::uint32_t>{} : hairsOfChangedGuides();
-    if (all || lookChanged || !some.empty()) {
-        thin.reset();
-        ownStrands(!all);
-    }
-    Strands& strands = *batch.strands;
-    if (all) batch.grown = layOut(sources, strands);
-    if (!all && lookChanged) renewLook(sources, batch.grown, strands);
-    evaluateHairs(sources, batch.grown, all ? allOf(batch.grown) : some, strands, progress);
-    batchValid = !progress.cancelled();
 }
 
 Generator::Generator() : m_state(std::make_unique<State>()) {}
@@ -225,25 +136,21 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
     double expected = 0.0;
     try {
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
-        if (s.batchTime != options.time && isAnimated(groom)) s.shapeChanged = true;
-        s.batchTime = options.time;
+        if (s.keptTime != options.time && isAnimated(groom)) s.changes.shape = true;
+        s.keptTime = options.time;
         countHairs(s.parts, options);
         const HairWish wish = wishFor(s.parts, options);
         const HairLookups lookups(s.parts.groom, options.time);
         expected = expectedRoots({*groom.mesh, s.parts.sampler, lookups.density, wish.request}, wish.range) *
                    static_cast<double>(mostHairsOfRoot(groom));
         if (expected <= mostKept) {
-            s.renewBatch(lookups, wish, progress);
+            s.kept.renew(s.parts, lookups, wish, s.changes, progress);
+            s.changes = HairChanges{};  // lets go of the maps of before
             if (progress.cancelled()) return cancelledError();
             progress.report(1.0f, "Growing hair");
-            if (!skipsVertices(groom)) return Shared(s.batch.strands);
-            if (!s.thin) s.thin = std::make_shared<const Strands>(thinned(*s.batch.strands, groom));
-            return s.thin;
+            return s.kept.share(groom);
         }
-        s.batchValid = false;
-        s.batch = Batch{};
-        s.spare.reset();
-        s.thin.reset();
+        s.kept.clear();
         auto all = std::make_shared<Strands>();
         bool full = false;
         Result<void> streamed = stream(
@@ -259,7 +166,7 @@ Result<std::shared_ptr<const Strands>> Generator::generateShared(const Groom& gr
         if (!streamed) return streamed.error();
         return Shared(std::move(all));
     } catch (const std::bad_alloc&) {
-        s.batchValid = false;
+        s.kept.drop();
         s.valid = false;
         return tooLarge(static_cast<std::uint64_t>(expected));
     }
@@ -270,7 +177,7 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
     State& s = *m_state;
     try {
         // The kept hair does not follow this groom.
-        s.batchValid = false;
+        s.kept.drop();
         if (Result<void> ready = s.prepare(groom, progress); !ready) return ready.error();
         countHairs(s.parts, options);
         return streamBatches(s.parts, HairLookups(s.parts.groom, options.time), options, blockSize, sink, progress);
@@ -282,7 +189,7 @@ Result<void> Generator::stream(const Groom& groom, const GenerateOptions& option
 
 Result<RootRange> Generator::rangeOfPart(const Groom& groom, std::uint32_t part, std::uint32_t partCount,
                                          Progress& progress) {
-    m_state->batchValid = false;
+    m_state->kept.drop();
     if (Result<void> ready = m_state->prepare(groom, progress); !ready) return ready.error();
     return m_state->parts.sampler.part(part, partCount);
 }

@@ -47,21 +47,32 @@ RootRange pieceOf(const RootSampler& sampler, RootRange range, std::size_t index
     return {edge(index), edge(index + 1)};
 }
 
+void makeRoots(const RootSource& source, std::span<const RootRange> ranges, std::vector<HairRoot>& roots,
+               std::vector<std::size_t>& ends) {
+    RootList list;
+    source.sampler.sample(source.request, ranges, list, ends);
+    const CandidateKeys keys = candidateKeys(source.request.seed);
+    roots.reserve(roots.size() + list.count());
+    std::size_t i = 0;
+    for (std::size_t& end : ends) {
+        for (; i < end; ++i) {
+            HairRoot root = rootAt(source, list.id(i), list.point(i));
+            root.unit = unitOf(stratumOf(keys, root.id));
+            if (source.density.at(root.point.triangle, root.uv) > 0.0f) roots.push_back(root);
+        }
+        end = roots.size();
+    }
+}
+
 std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progress& progress) {
     if (source.sampler.empty() || range.last <= range.first) return {};
     const auto pieces = static_cast<std::size_t>(expectedRoots(source, range) / rootsPerPiece) + 1;
     std::vector<std::vector<HairRoot>> made(pieces);
     parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
-        RootList list;
+        std::vector<std::size_t> ends;
         for (std::size_t piece = begin; piece < end && !progress.cancelled(); ++piece) {
-            list.clear();
-            source.sampler.sample(source.request, pieceOf(source.sampler, range, piece, pieces), list);
-            std::vector<HairRoot>& roots = made[piece];
-            roots.reserve(list.count());
-            for (std::size_t i = 0; i < list.count(); ++i) {
-                const HairRoot root = rootAt(source, list.id(i), list.point(i));
-                if (source.density.at(root.point.triangle, root.uv) > 0.0f) roots.push_back(root);
-            }
+            const RootRange part = pieceOf(source.sampler, range, piece, pieces);
+            makeRoots(source, std::span(&part, 1), made[piece], ends);
         }
     });
     if (pieces == 1) return std::move(made[0]);

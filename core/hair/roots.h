@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace whorl {
@@ -20,6 +21,7 @@ struct HairRoot {
     glm::vec3 normal{0.0f, 1.0f, 0.0f};
     glm::vec2 uv{0.0f};
     std::uint8_t group = 0;
+    std::uint32_t unit = 0;  ///< where on the sampler's curve, by which roots are in order; for roots of makeRoots
 };
 
 /// What roots are drawn from.
@@ -30,7 +32,7 @@ struct RootSource {
     RootRequest request;
 };
 
-/// The root of hair `id` at its place.
+/// The root of hair `id` at its place, but for its unit.
 HairRoot rootAt(const RootSource& source, std::uint32_t id, const SurfacePoint& point);
 
 /// The request that gives `share` of `hairs` hairs on the groom as `sampler` measured it, or on the groom as it was
@@ -44,6 +46,10 @@ double expectedRoots(const RootSource& source, RootRange range);
 
 /// Piece `index` of `count` of a range, with equal numbers of roots.
 RootRange pieceOf(const RootSampler& sampler, RootRange range, std::size_t index, std::size_t count);
+
+/// Roots in several ranges, in one thread; `ends`: the count of `roots` after each. See the next.
+void makeRoots(const RootSource& source, std::span<const RootRange> ranges, std::vector<HairRoot>& roots,
+               std::vector<std::size_t>& ends);
 
 /// Roots in `range` in order of the sampler's curve; those on places of no density are left out. Fewer when cancelled.
 std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progress& progress);

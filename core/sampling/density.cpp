@@ -4,6 +4,7 @@
 #include "core/surface/surface_point.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -64,11 +65,15 @@ float brightest(const Map* map) {
     for (int row = 0; row < map->tileRows(); ++row) {
         for (int column = 0; column < map->tileColumns(); ++column) {
             const std::vector<std::uint8_t>& bytes = map->tileBytes(column, row);
-            for (std::size_t i = 0; i + sizeof(float) <= bytes.size(); i += sizeof(float)) {
-                float texel = 0.0f;
-                std::memcpy(&texel, &bytes[i], sizeof(texel));
-                if (texel > most && std::isfinite(texel)) most = texel;
+            // Numbers above zero sort as their bits do; all others, and what is infinite or none, count as zero.
+            std::int32_t brightest = 0;
+            for (std::size_t i = 0; i < bytes.size() / sizeof(float); ++i) {
+                std::int32_t bits = 0;
+                std::memcpy(&bits, &bytes[i * sizeof(float)], sizeof(bits));
+                bits = bits < 0x7f800000 ? bits : 0;
+                brightest = bits > brightest ? bits : brightest;
             }
+            most = std::max(most, std::bit_cast<float>(brightest));
         }
     }
     return most;

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sampling/density_codes.h"
 
-#include "core/base/parallel.h"
 #include "core/sampling/candidates.h"
 #include "core/sampling/root_sweep.kernel.h"
 
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 
 namespace whorl {
 namespace {
 
 constexpr int deepest = 10;
-// Larger maps are sampled where they are.
-constexpr std::size_t mostTexels = std::size_t{1} << 26;
 
 struct Middles {
     std::vector<float> u, v;
@@ -42,27 +38,6 @@ const Middles& middlesAt(int depth) {
     return tables[level];
 }
 
-std::vector<float> withBorder(const Map& map) {
-    const std::size_t stride = static_cast<std::size_t>(map.width()) + 2;
-    std::vector<float> texels(stride * (static_cast<std::size_t>(map.height()) + 2));
-    const auto value = [&](int x, int y) {
-        if (map.channels() == 1) return map.texel(x, y);
-        return (map.texel(x, y, 0) + map.texel(x, y, 1) + map.texel(x, y, 2)) / 3.0f;
-    };
-    parallelFor(static_cast<std::size_t>(map.height()), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y) {
-            float* row = &texels[(y + 1) * stride];
-            for (int x = 0; x < map.width(); ++x) row[x + 1] = value(x, static_cast<int>(y));
-            row[0] = row[map.width()];
-            row[map.width() + 1] = row[1];
-        }
-    });
-    const auto rows = static_cast<std::size_t>(map.height());
-    std::copy_n(&texels[rows * stride], stride, texels.data());
-    std::copy_n(&texels[stride], stride, &texels[(rows + 1) * stride]);
-    return texels;
-}
-
 // Leaves out depths at which all four pieces of each piece are equal.
 int merged(int depth, std::vector<std::uint8_t>& codes, std::size_t first) {
     for (; depth > 0; --depth) {
@@ -84,16 +59,18 @@ std::uint8_t densityCode(float density) {
     return static_cast<std::uint8_t>(kept > 0.0f && code == 0 ? 1 : code);
 }
 
-DensityCodes::DensityCodes(const Groom& groom, const DensityLookup& density, bool many)
-    : m_mesh(*groom.mesh), m_density(density), m_scale(density.scale()) {
+const Map* DensityCodes::readsTexels(const DensityLookup& density) {
+    const auto sole = density.sole();
+    return sole && sole->map && sole->value > 0.0f && BorderedTexels::fits(*sole->map) ? sole->map : nullptr;
+}
+
+DensityCodes::DensityCodes(const Groom& groom, const DensityLookup& density, const BorderedTexels& texels)
+    : m_mesh(*groom.mesh), m_density(density), m_texels(texels), m_scale(density.scale()) {
     const auto sole = density.sole();
     if (!sole) return;
     m_map = sole->map;
     m_even = m_map == nullptr;
-    if (m_even || !(m_scale > 0.0f)) return;
-    m_mapScale = sole->value / m_scale;
-    const std::size_t texels = static_cast<std::size_t>(m_map->width()) * static_cast<std::size_t>(m_map->height());
-    if (many && texels <= mostTexels) m_texels = withBorder(*m_map);
+    if (!m_even && m_scale > 0.0f) m_mapScale = sole->value / m_scale;
 }
 
 int DensityCodes::measure(std::uint32_t triangle, int depth, std::vector<std::uint8_t>& codes) const {

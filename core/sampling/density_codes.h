@@ -2,6 +2,7 @@
 // Density in one byte: what the root sampler keeps of every piece of the surface.
 #pragma once
 
+#include "core/sampling/bordered_texels.h"
 #include "core/sampling/density.h"
 
 #include <cstdint>
@@ -18,8 +19,11 @@ std::uint8_t densityCode(float density);
 /// must outlive it.
 class DensityCodes {
 public:
-    /// `many`: most of the surface will be measured, so it is worth preparing for.
-    DensityCodes(const Groom& groom, const DensityLookup& density, bool many);
+    /// `texels`: of the map that decides alone, where that `readsTexels`. Must outlive it.
+    DensityCodes(const Groom& groom, const DensityLookup& density, const BorderedTexels& texels);
+
+    /// The map whose texels are worth reading first: the one that decides alone. Null when there is none.
+    static const Map* readsTexels(const DensityLookup& density);
 
     /// Density of code 255; zero when nothing grows.
     double scale() const { return m_scale; }
@@ -32,8 +36,8 @@ private:
 
     const SurfaceMesh& m_mesh;
     const DensityLookup& m_density;
-    const Map* m_map = nullptr;   // decides alone; texels times m_mapScale are 0 to 1
-    std::vector<float> m_texels;  // of m_map, with a border; see PieceArrays
+    const Map* m_map = nullptr;  // decides alone; texels times m_mapScale are 0 to 1
+    const BorderedTexels& m_texels;
     float m_mapScale = 1.0f;
     float m_scale = 0.0f;
     bool m_even = false;  // one density everywhere

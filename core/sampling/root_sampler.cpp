@@ -69,9 +69,11 @@ Result<RootSampler> RootSampler::build(const Groom& groom, const DensityLookup& 
             depths[i] = static_cast<std::uint8_t>(
                 texelDepth(mesh, curve.triangles()[i], density.mapWidth(), density.mapHeight(), maxDepth));
     });
-    const int allowed = allowedDepth(depths, maxDepth, maxPieces);
+    sampler.m_allowed = allowedDepth(depths, maxDepth, maxPieces);
 
-    const DensityCodes codes(groom, density, true);
+    BorderedTexels texels;
+    if (const Map* map = DensityCodes::readsTexels(density)) texels.read(*map);
+    const DensityCodes codes(groom, density, texels);
     std::vector<std::vector<std::uint8_t>> blocks((count + trianglesPerBlock - 1) / trianglesPerBlock);
     sampler.m_depths.resize(count);
     sampler.m_firstCode.resize(count);
@@ -81,7 +83,7 @@ Result<RootSampler> RootSampler::build(const Groom& groom, const DensityLookup& 
         std::vector<std::uint8_t>& block = blocks[begin / trianglesPerBlock];
         for (std::size_t i = begin; i < end; ++i) {
             sampler.m_firstCode[i] = static_cast<std::uint32_t>(block.size());
-            const int depth = codes.measure(curve.triangles()[i], std::min<int>(depths[i], allowed), block);
+            const int depth = codes.measure(curve.triangles()[i], std::min<int>(depths[i], sampler.m_allowed), block);
             sampler.m_depths[i] = static_cast<std::uint8_t>(depth);
         }
         const std::size_t sum = done.fetch_add(end - begin, std::memory_order_relaxed) + (end - begin);
@@ -104,8 +106,88 @@ Result<RootSampler> RootSampler::build(const Groom& groom, const DensityLookup& 
         }
     });
     sampler.m_scale = codes.scale();
+    sampler.m_sums.resize((count + trianglesPerSum - 1) / trianglesPerSum);
+    for (std::size_t block = 0; block < sampler.m_sums.size(); ++block) sampler.sumUp(block);
     sampler.sumUp();
     return sampler;
+}
+
+bool RootSampler::update(const Groom& groom, const DensityLookup& density, const TouchedMaps& maps,
+                         std::vector<std::uint32_t>& touched) {
+    touched.clear();
+    const Map* const read = DensityCodes::readsTexels(density);
+    const DensityCodes codes(groom, density, m_texels);
+    // Codes are shares of the scale.
+    if (codes.scale() != m_scale) return false;
+    if (read && m_texels.empty()) {
+        m_texels.read(*read);
+    } else if (read) {
+        for (const TouchedMaps::Pair& pair : maps.maps()) {
+            if (pair.after != read) continue;
+            for (const TexelRect& rect : changedTexels(*pair.before, *pair.after)) m_texels.read(*read, rect);
+        }
+    }
+    if (!m_cells) m_cells = std::make_shared<const UvCells>(*groom.mesh, m_curve->triangles());
+    touched = m_cells->under(maps.where());
+
+    constexpr std::size_t grain = 128;
+    struct Measured {
+        std::vector<std::uint8_t> codes, depths;
+    };
+    std::vector<Measured> blocks((touched.size() + grain - 1) / grain);
+    parallelFor(touched.size(), grain, [&](std::size_t begin, std::size_t end) {
+        Measured& block = blocks[begin / grain];
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t triangle = m_curve->triangles()[touched[i]];
+            const int depth = texelDepth(*groom.mesh, triangle, density.mapWidth(), density.mapHeight(), maxDepth);
+            block.depths.push_back(
+                static_cast<std::uint8_t>(codes.measure(triangle, std::min(depth, m_allowed), block.codes)));
+        }
+    });
+    std::size_t sum = m_sums.size();
+    for (std::size_t i = 0, from = 0; i < touched.size(); ++i) {
+        const Measured& block = blocks[i / grain];
+        if (i % grain == 0) from = 0;
+        const int depth = block.depths[i % grain];
+        const std::size_t count = std::size_t{1} << (2 * depth);
+        store(touched[i], depth, std::span(block.codes).subspan(from, count));
+        from += count;
+        const std::size_t next = touched[i] / trianglesPerSum;
+        if (sum != next && sum < m_sums.size()) sumUp(sum);
+        sum = next;
+    }
+    if (sum < m_sums.size()) sumUp(sum);
+    closeGaps();
+    sumUp();
+    return true;
+}
+
+void RootSampler::store(std::size_t place, int depth, std::span<const std::uint8_t> codes) {
+    const std::size_t had = std::size_t{1} << (2 * m_depths[place]);
+    if (codes.size() > had) {
+        m_lost += had;
+        m_firstCode[place] = static_cast<std::uint32_t>(m_codes.size());
+        m_codes.insert(m_codes.end(), codes.begin(), codes.end());
+    } else {
+        m_lost += had - codes.size();
+        std::copy(codes.begin(), codes.end(), m_codes.begin() + static_cast<std::ptrdiff_t>(m_firstCode[place]));
+    }
+    m_depths[place] = static_cast<std::uint8_t>(depth);
+    summarise(place);
+}
+
+// Once more than half of the codes are left behind.
+void RootSampler::closeGaps() {
+    if (m_lost <= m_codes.size() / 2) return;
+    std::vector<std::uint8_t> codes;
+    codes.reserve(m_codes.size() - m_lost);
+    for (std::size_t i = 0; i < m_curve->count(); ++i) {
+        const auto first = m_codes.begin() + static_cast<std::ptrdiff_t>(m_firstCode[i]);
+        m_firstCode[i] = static_cast<std::uint32_t>(codes.size());
+        codes.insert(codes.end(), first, first + (std::ptrdiff_t{1} << (2 * m_depths[i])));
+    }
+    m_codes = std::move(codes);
+    m_lost = 0;
 }
 
 // Largest code and mean of a triangle.
@@ -120,12 +202,19 @@ double RootSampler::weightOf(std::size_t place) const {
     return static_cast<double>(m_curve->width(place)) * static_cast<double>(m_means[place]);
 }
 
+void RootSampler::sumUp(std::size_t block) {
+    const std::size_t first = block * trianglesPerSum, last = std::min(first + trianglesPerSum, m_curve->count());
+    m_sums[block] = 0.0;
+    for (std::size_t i = first; i < last; ++i) m_sums[block] += weightOf(i);
+}
+
+// From the sums of the blocks.
 void RootSampler::sumUp() {
     m_before.clear();
     double sum = 0.0;
-    for (std::size_t i = 0; i < m_curve->count(); ++i) {
-        if (i % trianglesPerSum == 0) m_before.push_back(sum);
-        sum += weightOf(i);
+    for (const double weight : m_sums) {
+        m_before.push_back(sum);
+        sum += weight;
     }
     m_before.push_back(sum);
     m_weight = sum / static_cast<double>(SurfaceCurve::end) * m_scale;
@@ -134,7 +223,8 @@ void RootSampler::sumUp() {
 std::size_t RootSampler::memoryBytes() const {
     return m_curve->memoryBytes() + m_firstCode.capacity() * sizeof(std::uint32_t) + m_depths.capacity() +
            m_most.capacity() + m_means.capacity() * sizeof(float) + m_codes.capacity() +
-           m_before.capacity() * sizeof(double);
+           (m_before.capacity() + m_sums.capacity()) * sizeof(double) + m_texels.memoryBytes() +
+           (m_cells ? m_cells->memoryBytes() : 0);
 }
 
 double RootSampler::densityOf(std::uint8_t code) const {
@@ -164,7 +254,14 @@ RootSampler::Candidate RootSampler::candidate(std::uint32_t seed, std::uint32_t 
 }
 
 void RootSampler::sample(const RootRequest& request, RootRange range, RootList& roots) const {
-    if (empty() || range.first >= range.last) return;
+    std::vector<std::size_t> ends;
+    sample(request, std::span(&range, 1), roots, ends);
+}
+
+void RootSampler::sample(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                         std::vector<std::size_t>& ends) const {
+    ends.assign(ranges.size(), roots.count());
+    if (empty()) return;
     std::array<std::uint32_t, 256> limits;
     std::array<std::uint8_t, 256> levels;
     for (unsigned code = 0; code < 256; ++code) {
@@ -185,17 +282,21 @@ void RootSampler::sample(const RootRequest& request, RootRange range, RootList& 
                              m_most.data(),
                              m_codes.data()};
     const auto sweep = WHORL_PICK(sweepRoots);
-    const double expected = request.rate * m_weight * (shareBefore(range.last) - shareBefore(range.first));
+    double expected = 0.0;
+    for (const RootRange& range : ranges)
+        if (range.first < range.last)
+            expected += request.rate * m_weight * (shareBefore(range.last) - shareBefore(range.first));
     const double most = std::min(expected * 1.02 + 4096.0, mostCandidates);
     roots.reserve(roots.m_count + static_cast<std::size_t>(most));
-    std::uint32_t from = range.first;
-    while (true) {
-        SweepRoots room{roots.m_ids.get(), roots.m_triangles.get(), roots.m_u.get(),
-                        roots.m_v.get(),   roots.m_capacity,        roots.m_count};
-        from = sweep(arrays, m_curve->placeAt(from), from, range.last, room);
-        roots.m_count = room.count;
-        if (from >= range.last) return;
-        roots.reserve(roots.m_capacity + roots.m_capacity / 2 + sweepStrata);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        for (std::uint32_t from = ranges[i].first; from < ranges[i].last;) {
+            SweepRoots room{roots.m_ids.get(), roots.m_triangles.get(), roots.m_u.get(),
+                            roots.m_v.get(),   roots.m_capacity,        roots.m_count};
+            from = sweep(arrays, m_curve->placeAt(from), from, ranges[i].last, room);
+            roots.m_count = room.count;
+            if (from < ranges[i].last) roots.reserve(roots.m_capacity + roots.m_capacity / 2 + sweepStrata);
+        }
+        ends[i] = roots.m_count;
     }
 }
 

@@ -4,12 +4,15 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/model/map_changes.h"
 #include "core/sampling/candidates.h"
 #include "core/sampling/density_codes.h"
 #include "core/sampling/root_list.h"
 #include "core/sampling/surface_curve.h"
+#include "core/sampling/uv_cells.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace whorl {
@@ -42,6 +45,13 @@ public:
     static Result<RootSampler> build(const Groom& groom, const DensityLookup& density, Progress& progress,
                                      const RootSampler* earlier = nullptr);
 
+    /// Makes this sampler, of the groom as it was, that of `groom`, which differs as far as density minds in texels of
+    /// `maps` only (see sameDensity): measures the triangles under those texels, all the rest stays. The same as
+    /// building it anew. `touched`: the places on the curve, ascending, where roots may have come or gone or changed
+    /// their group. False, and nothing is changed, when it has to be built anew.
+    bool update(const Groom& groom, const DensityLookup& density, const TouchedMaps& maps,
+                std::vector<std::uint32_t>& touched);
+
     /// Density of the whole surface on average, including what grows nothing: a request of rate n / weight() gives n
     /// hairs, exactly where the density is the same everywhere, else with less spread than chance has.
     double weight() const { return m_weight; }
@@ -53,6 +63,9 @@ public:
 
     /// Appends the roots in a range, in order of the curve.
     void sample(const RootRequest& request, RootRange range, RootList& roots) const;
+    /// The same for several ranges, one after another. `ends`: the count of `roots` after each.
+    void sample(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                std::vector<std::size_t>& ends) const;
 
     /// Where to cut the line so that `share` (0 to 1) of the weight lies before.
     std::uint32_t cut(double share) const;
@@ -74,13 +87,16 @@ public:
     double densityOf(std::uint8_t code) const;
 
     const SurfaceCurve& curve() const { return *m_curve; }
-    std::size_t pieceCount() const { return m_codes.size(); }
+    std::size_t pieceCount() const { return m_codes.size() - m_lost; }
     /// With the curve.
     std::size_t memoryBytes() const;
 
 private:
     void summarise(std::size_t place);
+    void sumUp(std::size_t block);
     void sumUp();
+    void store(std::size_t place, int depth, std::span<const std::uint8_t> codes);
+    void closeGaps();
     double weightOf(std::size_t place) const;
 
     std::shared_ptr<const SurfaceCurve> m_curve = std::make_shared<SurfaceCurve>();
@@ -90,9 +106,15 @@ private:
     std::vector<std::uint8_t> m_most;
     std::vector<float> m_means;  // mean of (code / 255)^2
     std::vector<std::uint8_t> m_codes;
+    std::size_t m_lost = 0;        // of m_codes, what updates left behind
+    std::vector<double> m_sums;    // weight of every 64 triangles
     std::vector<double> m_before;  // weight before every 64th triangle, and of all
     double m_scale = 0.0;          // density of code 255
     double m_weight = 0.0;
+    int m_allowed = maxDepth;  // depth of no triangle is greater
+    // Made by the first update.
+    std::shared_ptr<const UvCells> m_cells;
+    BorderedTexels m_texels;
 };
 
 CandidateKeys candidateKeys(std::uint32_t seed);

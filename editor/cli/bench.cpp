@@ -12,6 +12,7 @@ std::vector<BenchRow> benchHair();
 std::vector<BenchRow> benchStrands();
 std::vector<BenchRow> benchModifiers();
 std::vector<BenchRow> benchEdit();
+std::vector<BenchRow> benchDab();
 std::vector<BenchRow> benchBox();
 std::vector<BenchRow> benchStream();
 std::vector<BenchRow> benchComb();
@@ -25,6 +26,7 @@ std::span<const Bench> benches() {
         Bench{"strands", "Hairs of strands from base hairs, against the reference generator", benchStrands},
         Bench{"modifiers", "Each modifier and all together, against the reference generator", benchModifiers},
         Bench{"edit", "Hair after a stroke of the comb, against a fresh generator", benchEdit},
+        Bench{"dab", "Hair after a dab of paint, against a fresh generator", benchDab},
         Bench{"box", "Boxes over rendered curves, against a plain loop", benchBox},
         Bench{"stream", "Memory above the document while 1,600,000 hairs go by", benchStream},
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},

@@ -157,7 +157,7 @@ std::vector<BenchRow> stages(const std::string& name, const Groom& groom) {
     row("layout", [&] { batch.grown = layOut(sources, *batch.strands); });
     row("shapes, frames, look",
         [&] { evaluateHairs(sources, batch.grown, allOf(batch.grown), *batch.strands, progress); });
-    row("look", [&] { renewLook(sources, batch.grown, *batch.strands); });
+    row("look", [&] { renewLook(sources, batch.grown, allOf(batch.grown), *batch.strands); });
     return rows;
 }
 

@@ -69,8 +69,10 @@ Strands grownFrom(const Groom& groom, const std::vector<HairRoot>& roots) {
     const ModifierChain chain(groom);
     const ClumpSet clumps;
     const CentresOfHairs centres;
-    const HairSources sources{groom,   roots, bindings, traits, shapes, lookup.kinkOffset(),
-                              nullptr, chain, clumps,   centres};
+    std::vector<std::uint32_t> order(roots.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const HairSources sources{groom,   roots, bindings, traits,  shapes, lookup.kinkOffset(),
+                              nullptr, chain, clumps,   centres, order};
     Strands strands;
     const GrownHairs grown = layOut(sources, strands);
     std::vector<std::uint32_t> all(grown.count());
