@@ -7,6 +7,7 @@ std::vector<Command> coreCommands() {
     std::vector<Command> list;
     addFileCommands(list);
     addEditCommands(list);
+    addGroupCommands(list);
     addModifierCommands(list);
     addPartingCommands(list);
     addStrokeCommands(list);

@@ -12,6 +12,7 @@ namespace whorl {
 
 void addFileCommands(std::vector<Command>& list);
 void addEditCommands(std::vector<Command>& list);
+void addGroupCommands(std::vector<Command>& list);
 void addModifierCommands(std::vector<Command>& list);
 void addPartingCommands(std::vector<Command>& list);
 void addStrokeCommands(std::vector<Command>& list);
@@ -28,6 +29,9 @@ std::optional<Number> numberFrom(std::string_view text, Number low, Number high)
 
 /// "on" or "off".
 std::optional<bool> switchFrom(std::string_view text);
+
+/// Number of the group of that name; the error names those there are, or that there is no groom.
+Result<int> groupNamed(const CommandContext& context, const std::string& name);
 
 inline Error usageError(const std::string& usage) {
     return {"Write: " + usage + "."};

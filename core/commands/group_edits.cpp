@@ -2,6 +2,8 @@
 #include "core/commands/group_edits.h"
 
 #include "core/param/param.h"
+#include "core/sampling/density.h"
+#include "core/surface/surface_point.h"
 
 #include <algorithm>
 
@@ -118,6 +120,22 @@ Result<void> removeGroup(Groom& groom, int group) {
     groups.erase(groups.begin() + group);
     groom.countAnew();
     return {};
+}
+
+std::size_t regroupGuides(Groom& groom) {
+    const DensityLookup lookup(groom);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+        const int group = lookup.groupAt(uvAt(*groom.mesh, groom.guides.root(i)));
+        if (group == groom.guides.group(i)) continue;
+        const int segments = (*groom.groups)[static_cast<std::size_t>(group)].params.general.segments;
+        if (static_cast<int>(groom.guides.points(i).size()) != segments + 1) {
+            groom.guides.setPoints(i, resampled(groom.guides.points(i), segments));
+        }
+        groom.guides.setGroup(i, static_cast<std::uint8_t>(group));
+        ++changed;
+    }
+    return changed;
 }
 
 Result<void> renameMap(Groom& groom, std::string_view from, std::string_view to) {

@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "core/model/groom.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,10 @@ Result<void> renameGroup(Groom& groom, int group, std::string_view name);
 /// Its guides go to the group before it (the next one for the first), resampled to that group's segments. Fails for the
 /// last group.
 Result<void> removeGroup(Groom& groom, int group);
+
+/// Gives every guide the group that the group map has at its root, resampled to that group's segments; without a group
+/// map all belong to the first group. Gives the number of guides that changed.
+std::size_t regroupGuides(Groom& groom);
 
 /// Parameters that used the map use the new name. Fails like renameGroup.
 Result<void> renameMap(Groom& groom, std::string_view from, std::string_view to);

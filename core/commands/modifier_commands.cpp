@@ -11,15 +11,6 @@ namespace {
 
 using Arguments = std::span<const std::string>;
 
-Result<int> groupNamed(const CommandContext& context, const std::string& name) {
-    if (!context.hasGroom) return noGroomError();
-    const int group = context.groom.groupIndex(name);
-    if (group >= 0) return group;
-    std::string names;
-    for (const Group& known : *context.groom.groups) names += (names.empty() ? "" : ", ") + known.name;
-    return Error{"There is no group \"" + name + "\"; groups are " + names + "."};
-}
-
 Result<std::string> add(CommandContext& context, Arguments arguments, Progress&) {
     if (arguments.size() < 2 || arguments.size() > 3) return usageError("add-modifier GROUP KIND [NAME]");
     const auto group = groupNamed(context, arguments[0]);

@@ -3,6 +3,10 @@
 
 #include "core/model/groom.h"
 
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <sstream>
 
 namespace whorl {
@@ -188,7 +192,14 @@ namespace {
 void writeBlock(std::ostream& out, std::string_view path, std::string_view label, std::string_view tip,
                 std::span<const ParamRef> refs) {
     const auto shown = [](const ParamInfo& info, double value) {
-        return paramText(value * info.shownScale) + (info.unit.empty() ? "" : " " + std::string(info.unit));
+        // Whole numbers whole; six digits of others, which are stored as floats.
+        char text[32];
+        const double number = value * info.shownScale;
+        const bool whole = std::abs(number) < 1e12 && number == std::round(number);
+        const auto end =
+            whole ? std::to_chars(std::begin(text), std::end(text), static_cast<std::int64_t>(number)).ptr
+                  : std::to_chars(std::begin(text), std::end(text), number, std::chars_format::general, 6).ptr;
+        return std::string(text, end) + (info.unit.empty() ? "" : " " + std::string(info.unit));
     };
     out << "## " << label << "\n\n" << tip << "\n\n";
     out << "| path | name | default | range | map | what it does |\n|---|---|---|---|---|---|\n";

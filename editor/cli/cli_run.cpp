@@ -2,6 +2,7 @@
 #include "core/commands/command.h"
 #include "core/io/safe_file.h"
 #include "editor/cli/cli.h"
+#include "editor/cli/picture_commands.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,12 +14,18 @@ struct Options {
     bool json = false;
 };
 
+std::vector<Command> allCommands() {
+    std::vector<Command> commands = coreCommands();
+    for (Command& command : pictureCommands()) commands.push_back(std::move(command));
+    return commands;
+}
+
 Outcome runFile(const Options& options) {
     const auto bytes = readFile(options.script, 16u << 20);
     if (!bytes) return badInput(bytes.error());
     const std::string text(bytes->begin(), bytes->end());
     CommandContext context;
-    const std::vector<Command> commands = coreCommands();
+    const std::vector<Command> commands = allCommands();
     const auto output = runScript(commands, context, text, options.script, progress());
     if (!options.json) {
         for (const std::string& problem : context.problems) note(problem);
@@ -37,7 +44,7 @@ Outcome runFile(const Options& options) {
 
 std::string commandHelp() {
     std::string text = "Commands, one a line; # starts a comment, \"quotes\" keep blanks:\n";
-    for (const Command& command : coreCommands()) text += "  " + command.usage + "\n      " + command.help + "\n";
+    for (const Command& command : allCommands()) text += "  " + command.usage + "\n      " + command.help + "\n";
     return text;
 }
 

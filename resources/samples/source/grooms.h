@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two grooms that ship with Whorl, made from nothing.
+// The grooms that ship with Whorl, made from nothing.
 #pragma once
 
 #include "core/base/progress.h"
@@ -13,6 +13,8 @@ namespace whorl::samples {
 Result<Groom> bustGroom(Progress& progress);
 /// A furry creature: pattern in a colour map, lengths in a length map.
 Result<Groom> creatureGroom(Progress& progress);
+/// A cushion with a lock of plain hair, to try parameters on.
+Result<Groom> swatchGroom(Progress& progress);
 
 /// Welds the sculpture's seam vertices and keeps UVs at corners.
 SurfaceMesh meshFrom(const Sculpture& sculpture);

@@ -3,6 +3,7 @@
 #include "core/commands/group_edits.h"
 
 #include "core/param/path.h"
+#include "core/surface/surface_point.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -23,6 +24,32 @@ private Q_SLOTS:
         QCOMPARE(*added, 1);
         QVERIFY((*groom.groups)[1].params == (*groom.groups)[0].params);
         QVERIFY(checkGroom(groom).empty());
+    }
+
+    void guidesFollowTheGroupMap() {
+        Groom groom = testing::groomOn(testing::plane(4, 1.0f), 40);
+        QVERIFY(addGroup(groom, "right", 0).ok());
+        QVERIFY(setGroomValue(groom, "groups/right/general/segments", 3.0).ok());
+        Map halves(64, 64, 1, TexelFormat::U8, 0.0f);
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 32; x < 64; ++x) halves.setTexel(x, y, 0, 1.0f / 255.0f);
+        }
+        groom.maps.set("halves", std::move(halves));
+        QCOMPARE(regroupGuides(groom), std::size_t{0});
+        groom.counts.edit().groupMap.name = "halves";
+        std::size_t right = 0;
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            right += uvAt(*groom.mesh, groom.guides.root(i)).x >= 0.5f;
+        }
+        QVERIFY(right > 5 && right < 35);
+        QCOMPARE(regroupGuides(groom), right);
+        QVERIFY(checkGroom(groom).empty());
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            const bool onRight = uvAt(*groom.mesh, groom.guides.root(i)).x >= 0.5f;
+            QCOMPARE(groom.guides.group(i), onRight ? 1 : 0);
+            if (onRight) QCOMPARE(groom.guides.points(i).size(), std::size_t{4});
+        }
+        QCOMPARE(regroupGuides(groom), std::size_t{0});
     }
 
     void namesAreUniqueAndPlain() {
