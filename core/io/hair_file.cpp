@@ -11,10 +11,11 @@
 namespace whorl {
 namespace {
 
-constexpr std::array<HairFormat, 3> formats{{
+constexpr std::array<HairFormat, 4> formats{{
     {"ply", "Stanford PLY, points and edges", openHairPly},
     {"obj", "Wavefront OBJ, lines", openHairObj},
     {"hair", "HAIR by Cem Yuksel", openHairYuksel},
+    {"rib", "RenderMan RIB, Catmull-Rom curves", openHairRib},
 }};
 
 constexpr std::uint32_t blockHairs = 1u << 14;

@@ -10,6 +10,8 @@ namespace whorl {
 Result<std::unique_ptr<HairWriter>> openHairPly(const std::filesystem::path& file);
 /// OBJ: `v` lines and one `l a b` line a piece (Blender reads only two indices a line).
 Result<std::unique_ptr<HairWriter>> openHairObj(const std::filesystem::path& file);
+/// RIB for RenderMan: Catmull-Rom `Curves` with P, width, N, Cs, Os, s, t and ids, first and last vertices twice.
+Result<std::unique_ptr<HairWriter>> openHairRib(const std::filesystem::path& file);
 /// Cem Yuksel's .hair with segments, points, thickness, transparency and colours.
 Result<std::unique_ptr<HairWriter>> openHairYuksel(const std::filesystem::path& file);
 

@@ -15,6 +15,7 @@ std::vector<BenchRow> benchEdit();
 std::vector<BenchRow> benchDab();
 std::vector<BenchRow> benchBox();
 std::vector<BenchRow> benchStream();
+std::vector<BenchRow> benchPackage();
 std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchPaint();
 std::vector<BenchRow> benchDraw();
@@ -29,6 +30,7 @@ std::span<const Bench> benches() {
         Bench{"dab", "Hair after a dab of paint, against a fresh generator", benchDab},
         Bench{"box", "Boxes over rendered curves, against a plain loop", benchBox},
         Bench{"stream", "Memory above the document while 1,600,000 hairs go by", benchStream},
+        Bench{"package", "Packages, against the hair that they stand for as it is", benchPackage},
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},

@@ -125,15 +125,15 @@ Groom benchGroom(BenchGroomOptions options) {
     return groom;
 }
 
-BenchDocument benchDocument() {
+BenchDocument benchDocument(const std::string& sample) {
     std::error_code failed;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::filesystem::path file = program.parent_path().parent_path() / "samples" / "creature.whorl";
+    const std::filesystem::path file = program.parent_path().parent_path() / "samples" / (sample + ".whorl");
     if (!failed && std::filesystem::exists(file, failed)) {
         Progress progress;
-        if (auto opened = openDocument(file, progress)) return {"sample creature", std::move(opened->groom)};
+        if (auto opened = openDocument(file, progress)) return {"sample " + sample, std::move(opened->groom)};
     }
-    return {"ball, as there is no sample creature", benchGroom()};
+    return {"ball, as there is no sample " + sample, benchGroom()};
 }
 
 std::uint64_t digestOf(const Strands& strands) {

@@ -19,12 +19,12 @@ struct BenchGroomOptions {
 /// them to a hair, and frizz.
 Groom benchGroom(BenchGroomOptions options = {});
 
-/// The sample creature where it lies beside the program, else the ball.
+/// A sample ("creature" or "bust") where it lies beside the program, else the ball.
 struct BenchDocument {
     std::string name;
     Groom groom;
 };
-BenchDocument benchDocument();
+BenchDocument benchDocument(const std::string& sample = "creature");
 
 std::uint64_t digestOf(const Strands& strands);
 

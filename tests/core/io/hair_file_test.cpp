@@ -95,6 +95,53 @@ private Q_SLOTS:
         QCOMPARE(std::filesystem::file_size(file), 128 + expected().count() * 2 + expected().vertexCount() * 32);
     }
 
+    void aRibFileHoldsCurvesThatReadBackEqual() {
+        // Number by number: each list in brackets, in the order of the calls.
+        const std::string text = bytesOf(written("a.rib"));
+        QVERIFY(text.starts_with("##RenderMan RIB") && text.ends_with("AttributeEnd\n"));
+        QVERIFY(text.find("Basis \"catmull-rom\" 1 \"catmull-rom\" 1\n") != std::string::npos);
+        QVERIFY(text.find("Curves \"cubic\" [") != std::string::npos &&
+                text.find("] \"nonperiodic\"") != std::string::npos);
+        const auto all = [&](const std::string& name) {
+            std::vector<float> numbers;
+            for (std::size_t at = text.find(name + " ["); at != std::string::npos;
+                 at = text.find(name + " [", at + 1)) {
+                const char* from = text.data() + at + name.size() + 2;
+                for (char* end = nullptr; *from != ']'; from = end) numbers.push_back(std::strtof(from, &end));
+            }
+            return numbers;
+        };
+        const auto counts = all("\"cubic\""), positions = all("\"vertex point P\""),
+                   widths = all("\"vertex float width\"");
+        const auto normals = all("\"varying normal N\""), colours = all("\"varying color Cs\"");
+        const auto opacities = all("\"varying color Os\""), s = all("\"uniform float s\""),
+                   t = all("\"uniform float t\"");
+        const auto ids = all("\"uniform int hair_id\"");
+        const std::size_t count = expected().count(), vertices = expected().vertexCount();
+        QVERIFY(counts.size() == count && ids.size() == count && s.size() == count && t.size() == count);
+        QVERIFY(positions.size() == 3 * (vertices + 2 * count) && widths.size() == vertices + 2 * count);
+        QVERIFY(normals.size() == 3 * vertices && colours.size() == 3 * vertices && opacities.size() == 3 * vertices);
+        std::size_t at = 0;
+        const auto three = [](const std::vector<float>& a, std::size_t i) {
+            return glm::vec3(a[3 * i], a[3 * i + 1], a[3 * i + 2]);
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t first = expected().firstVertex[i], end = expected().firstVertex[i + 1];
+            QVERIFY(counts[i] == static_cast<float>(end - first + 2) &&
+                    ids[i] == static_cast<float>(expected().ids[i]));
+            QVERIFY(glm::vec2(s[i], t[i]) == expected().rootUvs[i]);
+            for (std::uint32_t k = 0; k < end - first + 2; ++k, ++at) {
+                const std::uint32_t v = std::clamp(first + k, first + 1, end) - 1;
+                QVERIFY(three(positions, at) == expected().positions[v] && widths[at] == expected().widths[v]);
+            }
+        }
+        for (std::size_t v = 0; v < vertices; ++v) {
+            QVERIFY(three(normals, v) == expected().normals[v]);
+            QVERIFY(three(colours, v) == glm::vec3(expected().colours[v]) &&
+                    opacities[3 * v] == expected().colours[v].w);
+        }
+    }
+
     void aPlyFileHoldsVerticesAndEdges() {
         const std::string bytes = bytesOf(written("a.ply"));
         const std::size_t end = bytes.find("end_header\n");
