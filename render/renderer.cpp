@@ -5,6 +5,7 @@
 #include "render/gl/program.h"
 #include "render/passes/guides_pass.h"
 #include "render/passes/hair_pass.h"
+#include "render/passes/line_ribbons.h"
 #include "render/passes/mesh_pass.h"
 #include "render/passes/overlay_pass.h"
 #include "render/passes/partings_pass.h"
@@ -81,6 +82,8 @@ struct Renderer::State {
     MeshPass mesh;
     GuidesPass guides;
     PartingsPass partings;
+    LineRibbons looked;    // at: the hair
+    LineRibbons lookedBy;  // the guides that shape it
     HairPass hair;
     ShadowPass shadows;
     PicturePass picture;
@@ -122,6 +125,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     if (!guides) return guides.error();
     Result<PartingsPass> partings = PartingsPass::create();
     if (!partings) return partings.error();
+    Result<LineRibbons> looked = LineRibbons::create();
+    if (!looked) return looked.error();
+    Result<LineRibbons> lookedBy = LineRibbons::create();
+    if (!lookedBy) return lookedBy.error();
     Result<HairPass> hair = HairPass::create();
     if (!hair) return hair.error();
     Result<PicturePass> picture = PicturePass::create();
@@ -129,10 +136,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     Result<OverlayPass> overlay = OverlayPass::create();
     if (!overlay) return overlay.error();
     std::unique_ptr<Renderer> renderer(new Renderer);
-    renderer->m_state = std::unique_ptr<State>(
-        new State{std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
-                  std::move(*hair), ShadowPass(), std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
-                  gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    renderer->m_state = std::unique_ptr<State>(new State{
+        std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
+        std::move(*looked), std::move(*lookedBy), std::move(*hair), ShadowPass(), std::move(*picture),
+        std::move(*overlay), gl::Buffer("scene"), gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
     renderer->m_state->byProcessor = renderer->m_state->context.software;
     return renderer;
 }
@@ -170,6 +177,11 @@ void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
 
 void Renderer::setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours) {
     m_state->mesh.setTriangleColours(std::move(colours));
+}
+
+void Renderer::setHighlight(const std::vector<glm::vec3>& hair, std::span<const std::vector<glm::vec3>> guides) {
+    m_state->looked.set({&hair, 1}, m_state->uploads);
+    m_state->lookedBy.set(guides, m_state->uploads);
 }
 
 void Renderer::draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, unsigned target,
@@ -231,6 +243,17 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
         state.vertexArray.bind();
         state.partings.draw(size);
     }
+    state.vertexArray.bind();
+    state.lookedBy.draw(size, {.root = glm::vec3(0.1f, 0.5f, 1.0f),
+                               .tip = glm::vec3(0.35f, 0.85f, 1.0f),
+                               .halfWidth = 1.4f,
+                               .opacity = 0.9f,
+                               .hiddenOpacity = 0.45f});
+    state.looked.draw(size, {.root = glm::vec3(1.0f, 0.35f, 0.05f),
+                             .tip = glm::vec3(1.0f, 0.8f, 0.15f),
+                             .halfWidth = 2.0f,
+                             .opacity = 1.0f,
+                             .hiddenOpacity = 0.7f});
     state.picture.finish(settings, target, size);
     state.overlay.draw(overlay, size);
     state.drawTimer.end();
@@ -244,6 +267,16 @@ std::optional<std::size_t> Renderer::pickGuide(const Camera& camera, glm::vec2 p
     const glm::mat4 clip = camera.clipFromView(pixels, state.sceneBounds()) * camera.viewFromGroom();
     return whorl::pickGuide(state.groom.guides, state.surface != nullptr ? &state.surface->query : nullptr, clip,
                             camera.eye(), pixel, radius, pixels);
+}
+
+std::optional<std::size_t> Renderer::pickHair(const Camera& camera, glm::vec2 pixel, float radius,
+                                              glm::ivec2 size) const {
+    const State& state = *m_state;
+    if (state.strands == nullptr) return std::nullopt;
+    const glm::vec2 pixels(glm::max(size, glm::ivec2(1)));
+    const glm::mat4 clip = camera.clipFromView(pixels, state.sceneBounds()) * camera.viewFromGroom();
+    return whorl::pickHair(*state.strands, state.surface != nullptr ? &state.surface->query : nullptr, clip,
+                           camera.eye(), pixel, radius, pixels);
 }
 
 Renderer::Timing Renderer::timing() const {

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace whorl {
@@ -35,6 +36,10 @@ public:
     /// Colours of the mesh's triangles (linear, opacity last) that ViewSettings::heat shows; may be null.
     void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);
 
+    /// A hair that is looked at and the guides that shape it, drawn over everything; empty for none. Points in the
+    /// space of the mesh.
+    void setHighlight(const std::vector<glm::vec3>& hair, std::span<const std::vector<glm::vec3>> guides);
+
     /// Draws into framebuffer object `target` (0: the window) of `size` pixels, multisampled in an own framebuffer and
     /// resolved there.
     void draw(const Camera& camera, const ViewSettings& settings, const OverlayState& overlay, unsigned target,
@@ -42,6 +47,9 @@ public:
 
     /// Nearest guide to a pixel within `radius` pixels, not hidden by the mesh; its index.
     std::optional<std::size_t> pickGuide(const Camera& camera, glm::vec2 pixel, float radius, glm::ivec2 size) const;
+
+    /// Number (in the strands that are shown) of the foremost hair within `radius` pixels, not hidden by the mesh.
+    std::optional<std::size_t> pickHair(const Camera& camera, glm::vec2 pixel, float radius, glm::ivec2 size) const;
 
     /// Milliseconds of the last draw, by pass, for the overlay and the bench.
     struct Timing {

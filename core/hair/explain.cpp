@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/explain.h"
 
-#include "core/param/path.h"
 #include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <iterator>
 #include <optional>
 
 namespace whorl {
 namespace {
 
 std::string number(float value) {
-    return paramText(static_cast<double>(value));
+    // Five digits: for people, and floats have not many more.
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), value, std::chars_format::general, 5).ptr;
+    return {text, end};
 }
 
 std::string vector(const glm::vec3& v) {

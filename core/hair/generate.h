@@ -23,6 +23,7 @@ struct GenerateOptions {
     /// Level of detail: this share of the hairs, 0 to 1, a subset of all, and as much wider as they are fewer.
     float lod = 1.0f;
     float time = 0.0f;  ///< seconds, for animated frizz
+    bool operator==(const GenerateOptions&) const = default;
 };
 
 /// Turns grooms into hair, neighbours after neighbours, and keeps what the next call can use again: sampler, roots,

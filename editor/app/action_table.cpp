@@ -63,6 +63,11 @@ void addGroom(std::vector<ActionInfo>& table) {
     table.push_back({"groom.add_guides", tr("&Fill Up Guides"), "Ctrl+Shift+G",
                      tr("Spreads more guides between those that are there, up to the number of guides."), menu, A::Push,
                      false, ""});
+    table.push_back({"groom.place_on_vertices", tr("Place Guides on &Vertices"), "",
+                     tr("Puts a guide on every vertex of the mesh where hair grows, in place of those that are there."),
+                     menu, A::Push, false, ""});
+    table.push_back({"groom.regroup_guides", tr("Guides to Painted &Groups"), "",
+                     tr("Gives every guide the group that is painted at its root."), menu, A::Push, false, ""});
     table.push_back(
         {"groom.clear_guides", tr("&Remove All Guides"), "", tr("Removes every guide."), menu, A::Push, false, ""});
     table.push_back({"groom.clear_partings", tr("Remove All P&artings"), "", tr("Removes every parting."), menu,

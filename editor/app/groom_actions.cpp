@@ -2,6 +2,8 @@
 #include "editor/app/groom_actions.h"
 
 #include "core/commands/command.h"
+#include "core/commands/group_edits.h"
+#include "core/commands/vertex_guides.h"
 #include "core/param/path.h"
 #include "editor/app/actions.h"
 #include "editor/app/document.h"
@@ -30,6 +32,8 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
     actions.on("edit.redo", this, [this] { m_document.redo(); });
     actions.on("groom.place_guides", this, [this] { placeGuides(m_document.committed().counts->guides, false); });
     actions.on("groom.add_guides", this, [this] { placeGuides(m_document.committed().counts->guides, true); });
+    actions.on("groom.place_on_vertices", this, [this] { placeGuidesOnVertices(); });
+    actions.on("groom.regroup_guides", this, [this] { regroupGuides(); });
     actions.on("groom.clear_guides", this, [this] { clearGuides(); });
     actions.on("groom.clear_partings", this, [this] { clearPartings(); });
     actions.on("groom.paint_density", this, [this] { paintDensity(); });
@@ -55,6 +59,7 @@ void GroomActions::refresh() {
         if (needsGroom) m_actions.get(row.id).setEnabled(open);
     }
     m_actions.get("groom.clear_partings").setEnabled(!m_document.groom().partings->empty());
+    m_actions.get("groom.regroup_guides").setEnabled(!m_document.groom().guides.empty());
     m_actions.get("groom.clear_guides").setEnabled(!m_document.groom().guides.empty());
     const auto name = [&](const char* id, const QString& verb, const QString& what) {
         m_actions.get(id).setText(what.isEmpty() ? verb : QString("%1 %2").arg(verb, what));
@@ -82,6 +87,32 @@ bool GroomActions::placeGuides(int count, bool keep) {
     }
     m_document.edit(std::move(after), keep ? tr("Fill up guides") : tr("Place guides"));
     return true;
+}
+
+void GroomActions::placeGuidesOnVertices() {
+    m_document.revert();
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    if (!surface) return;
+    Groom after = m_document.committed();
+    const Result<void> done = runWithProgress<void>(&m_window, tr("Placing guides"), [&](Progress& progress) {
+        return whorl::placeGuidesOnVertices(after, *surface, {}, progress);
+    });
+    if (done) {
+        m_document.edit(std::move(after), tr("Place guides on vertices"));
+    } else if (!done.error().cancelled) {
+        m_messages.say(MessageBar::Kind::Warning, QString::fromStdString(done.error().message));
+    }
+}
+
+void GroomActions::regroupGuides() {
+    Groom after = m_document.committed();
+    const std::size_t changed = whorl::regroupGuides(after);
+    if (changed == 0) {
+        m_messages.say(MessageBar::Kind::Info,
+                       tr("All guides belong to the groups that are painted under them already."));
+        return;
+    }
+    m_document.edit(std::move(after), tr("Guides to painted groups"));
 }
 
 void GroomActions::clearGuides() {

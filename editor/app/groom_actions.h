@@ -23,6 +23,9 @@ public:
 
     /// Spreads `count` guides; `keep`: beside those that are there.
     bool placeGuides(int count, bool keep);
+    void placeGuidesOnVertices();
+    /// Gives every guide the group that the group map has at its root.
+    void regroupGuides();
     void clearGuides();
     void clearPartings();
     /// Picks the paint brush with the density map of the active group; makes the map when there is none.

@@ -10,14 +10,12 @@ HairJob::HairJob(QObject* parent) : QObject(parent) {}
 
 HairJob::~HairJob() = default;
 
-void HairJob::request(const Groom& groom, std::shared_ptr<const Surface> surface, std::uint32_t hairs,
+void HairJob::request(const Groom& groom, std::shared_ptr<const Surface> surface, const GenerateOptions& options,
                       bool interactive) {
     const std::uint64_t serial = ++m_requested;
-    auto work = [this, serial, groom, surface = std::move(surface), hairs](Progress& progress) {
+    auto work = [this, serial, groom, surface = std::move(surface), options](Progress& progress) {
         const auto start = std::chrono::steady_clock::now();
         if (surface) m_generator.setSurface(surface);
-        GenerateOptions options;
-        options.hairCount = hairs;
         Result<std::shared_ptr<const Strands>> result = m_generator.generateShared(groom, options, progress);
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
         std::shared_ptr<const Strands> strands;

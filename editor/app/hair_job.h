@@ -20,7 +20,8 @@ public:
     ~HairJob() override;
 
     /// `interactive`: the artist is dragging; a generation that runs is finished and shown before the newest one.
-    void request(const Groom& groom, std::shared_ptr<const Surface> surface, std::uint32_t hairs, bool interactive);
+    void request(const Groom& groom, std::shared_ptr<const Surface> surface, const GenerateOptions& options,
+                 bool interactive);
     bool busy() const { return m_job.busy() || m_delivered != m_requested; }
     /// Milliseconds of the last generation.
     double milliseconds() const { return m_milliseconds; }

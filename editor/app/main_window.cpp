@@ -8,6 +8,7 @@
 #include "editor/app/files.h"
 #include "editor/app/groom_actions.h"
 #include "editor/app/icons.h"
+#include "editor/app/panels/explain_panel.h"
 #include "editor/app/panels/panels.h"
 #include "editor/app/resources.h"
 #include "editor/app/viewport/viewport.h"
@@ -157,10 +158,16 @@ void MainWindow::makePanels() {
     QDockWidget* parts = dock("dock_parts", tr("Parts"), new PartsPanel(context));
     QDockWidget* view = dock("dock_view", tr("View"), new ViewPanel(context));
     QDockWidget* history = dock("dock_history", tr("History"), new HistoryPanel(context));
+    QDockWidget* why = dock("dock_explain", tr("Why"), new ExplainPanel(context, viewport()));
     splitDockWidget(tool, groom, Qt::Vertical);
-    for (QDockWidget* next : {hair, maps, parts, view, history}) tabifyDockWidget(groom, next);
+    for (QDockWidget* next : {hair, maps, parts, view, history, why}) tabifyDockWidget(groom, next);
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     groom->raise();
+    if (viewport()) {
+        connect(viewport(), &Viewport::hairPicked, why, [why](std::optional<std::uint32_t> picked) {
+            if (picked) why->raise();
+        });
+    }
     resizeDocks({tool, groom}, {330, 520}, Qt::Vertical);
     resizeDocks({tool}, {390}, Qt::Horizontal);
 }

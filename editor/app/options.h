@@ -93,6 +93,8 @@ struct ViewOptions {
     bool showMesh = true;
     bool showTexture = true;
     bool heat = false;
+    float time = 0.0f;
+    float detail = 1.0f;
     float overlayOpacity = 0.65f;
     Choice shading{};
     float diffuse = 0.75f;
@@ -124,6 +126,22 @@ struct ViewOptions {
                         .tip = "Instead of the hair: white where as many hairs grow as the density asks for, blue "
                                "where there are fewer, red where there are more."},
               self.heat);
+        visit(ParamInfo{.id = "time",
+                        .label = "Time",
+                        .max = 1e6,
+                        .softMax = 10,
+                        .unit = "s",
+                        .tip = "The moment that is shown, where frizz is animated."},
+              self.time);
+        visit(
+            ParamInfo{.id = "detail",
+                      .label = "Level of detail",
+                      .min = 0.001,
+                      .unit = "%",
+                      .shownScale = 100,
+                      .tip = "Shows the groom as a renderer makes it far away: this share of the hairs, as much wider "
+                             "as they are fewer."},
+            self.detail);
         visit(ParamInfo{.id = "overlay_opacity",
                         .label = "Map over model",
                         .unit = "%",

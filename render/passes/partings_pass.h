@@ -3,9 +3,7 @@
 #pragma once
 
 #include "core/model/groom.h"
-#include "render/gl/draw.h"
-#include "render/gl/program.h"
-#include "render/uploads.h"
+#include "render/passes/line_ribbons.h"
 
 namespace whorl {
 
@@ -20,10 +18,7 @@ public:
 private:
     Cow<SurfaceMesh> m_mesh;
     Cow<std::vector<Parting>> m_partings;
-    gl::Program m_lines;
-    gl::Buffer m_points;
-    gl::Buffer m_indices;
-    std::size_t m_indexCount = 0;
+    LineRibbons m_lines;
 };
 
 }  // namespace whorl

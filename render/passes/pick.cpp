@@ -5,14 +5,15 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace whorl {
 namespace {
 
 struct Candidate {
-    float distance;
-    std::size_t guide;
+    float order;
+    std::size_t index;
     glm::vec3 place;
 };
 
@@ -28,51 +29,81 @@ Projected project(const glm::mat4& clipFromGroom, const glm::vec3& p, glm::vec2 
             clip.w};
 }
 
+/// Where a polyline comes nearest to `pixel` in the picture.
+struct Near {
+    float distance;  ///< pixels
+    glm::vec3 place{0.0f};
+};
+
+/// Nothing when it stays beyond `radius` pixels.
+std::optional<Near> nearest(std::span<const glm::vec3> points, const glm::mat4& clipFromGroom, glm::vec2 pixel,
+                            float radius, glm::vec2 viewportPixels) {
+    std::optional<Near> best;
+    Projected from;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const Projected to = project(clipFromGroom, points[p], viewportPixels);
+        if (p > 0 && from.w > 0.0f && to.w > 0.0f) {
+            const glm::vec2 way = to.pixel - from.pixel;
+            const float square = glm::dot(way, way);
+            const float t = square > 0.0f ? std::clamp(glm::dot(pixel - from.pixel, way) / square, 0.0f, 1.0f) : 0.0f;
+            const float distance = glm::length(pixel - from.pixel - way * t);
+            if (distance <= radius && (!best || distance < best->distance)) {
+                // Even steps in the picture are not even in space: undo the perspective.
+                const float s = t * from.w / ((1.0f - t) * to.w + t * from.w);
+                best = Near{distance, points[p - 1] + (points[p] - points[p - 1]) * s};
+            }
+        }
+        from = to;
+    }
+    return best;
+}
+
+bool hidden(const SurfaceQuery* query, const glm::vec3& eye, const glm::vec3& place) {
+    if (query == nullptr) return false;
+    const glm::vec3 way = place - eye;
+    const float distance = glm::length(way);
+    if (distance <= 0.0f) return true;
+    // Roots lie on the skin: a little slack keeps them from hiding behind it.
+    const float slack = 0.002f * distance + 1e-4f;
+    const auto hit = query->raycast(eye, way / distance, distance);
+    return hit && hit->distance < distance - slack;
+}
+
+/// The first of the candidates, by their order, that the mesh does not hide.
+std::optional<std::size_t> firstSeen(std::vector<Candidate>& candidates, const SurfaceQuery* query,
+                                     const glm::vec3& eye) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.order < b.order; });
+    for (const Candidate& candidate : candidates) {
+        if (!hidden(query, eye, candidate.place)) return candidate.index;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::size_t> pickGuide(const GuideSet& guides, const SurfaceQuery* query, const glm::mat4& clipFromGroom,
                                      const glm::vec3& eye, glm::vec2 pixel, float radius, glm::vec2 viewportPixels) {
     std::vector<Candidate> candidates;
-    for (std::size_t block = 0; block < guides.blockCount(); ++block) {
-        const GuideBlock& b = guides.block(block);
-        for (std::size_t i = 0; i < b.count(); ++i) {
-            Candidate best{radius, guides.firstOfBlock(block) + i, glm::vec3(0.0f)};
-            bool found = false;
-            Projected from;
-            for (std::uint32_t p = b.firstPoint[i]; p < b.firstPoint[i + 1]; ++p) {
-                const Projected to = project(clipFromGroom, b.points[p], viewportPixels);
-                if (p > b.firstPoint[i] && from.w > 0.0f && to.w > 0.0f) {
-                    const glm::vec2 way = to.pixel - from.pixel;
-                    const float square = glm::dot(way, way);
-                    const float t =
-                        square > 0.0f ? std::clamp(glm::dot(pixel - from.pixel, way) / square, 0.0f, 1.0f) : 0.0f;
-                    const float distance = glm::length(pixel - from.pixel - way * t);
-                    if (distance < best.distance || (!found && distance <= radius)) {
-                        // Even steps in the picture are not even in space: undo the perspective.
-                        const float s = t * from.w / ((1.0f - t) * to.w + t * from.w);
-                        best.distance = distance;
-                        best.place = b.points[p - 1] + (b.points[p] - b.points[p - 1]) * s;
-                        found = true;
-                    }
-                }
-                from = to;
-            }
-            if (found) candidates.push_back(best);
+    for (std::size_t i = 0; i < guides.count(); ++i) {
+        if (const auto near = nearest(guides.points(i), clipFromGroom, pixel, radius, viewportPixels)) {
+            candidates.push_back({near->distance, i, near->place});
         }
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
-    for (const Candidate& candidate : candidates) {
-        if (query == nullptr) return candidate.guide;
-        const glm::vec3 way = candidate.place - eye;
-        const float distance = glm::length(way);
-        if (distance <= 0.0f) continue;
-        // Roots lie on the skin: a little slack keeps them from hiding behind it.
-        const float slack = 0.002f * distance + 1e-4f;
-        const auto hit = query->raycast(eye, way / distance, distance);
-        if (!hit || hit->distance >= distance - slack) return candidate.guide;
+    return firstSeen(candidates, query, eye);
+}
+
+std::optional<std::size_t> pickHair(const Strands& strands, const SurfaceQuery* query, const glm::mat4& clipFromGroom,
+                                    const glm::vec3& eye, glm::vec2 pixel, float radius, glm::vec2 viewportPixels) {
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < strands.count(); ++i) {
+        const std::span points(strands.positions.data() + strands.firstVertex[i],
+                               strands.firstVertex[i + 1] - strands.firstVertex[i]);
+        if (const auto near = nearest(points, clipFromGroom, pixel, radius, viewportPixels)) {
+            candidates.push_back({glm::distance(eye, near->place), i, near->place});
+        }
     }
-    return std::nullopt;
+    return firstSeen(candidates, query, eye);
 }
 
 }  // namespace whorl

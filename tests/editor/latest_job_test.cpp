@@ -93,7 +93,7 @@ private Q_SLOTS:
         const Groom groom = testing::groomOn(testing::sphere(12, 18), 60);
         const auto surface = std::make_shared<const Surface>(groom.mesh);
         for (std::uint32_t hairs = 100; hairs <= 2000; hairs += 100)
-            job.request(groom, surface, hairs, hairs % 200 == 0);
+            job.request(groom, surface, {.hairCount = hairs}, hairs % 200 == 0);
         QTRY_VERIFY(!job.busy());
         QVERIFY(!counts.empty());
         QCOMPARE(counts.back(), std::size_t{2000});
@@ -106,7 +106,7 @@ private Q_SLOTS:
         connect(&job, &HairJob::delivered, this,
                 [&](std::shared_ptr<const Strands> strands) { count = strands->count(); });
         const Groom groom = makeGroom(testing::sphere(6, 8));
-        job.request(groom, std::make_shared<const Surface>(groom.mesh), 500, false);
+        job.request(groom, std::make_shared<const Surface>(groom.mesh), {.hairCount = 500}, false);
         QTRY_VERIFY(!job.busy());
         QCOMPARE(count, std::size_t{0});
     }

@@ -5,6 +5,7 @@
 #include <QOpenGLContext>
 #include <QSurfaceFormat>
 #include <chrono>
+#include <utility>
 
 namespace whorl {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr int stillMilliseconds = 180;
 constexpr std::uint32_t interactiveHairs = 10000;
 constexpr int frameMilliseconds = 16;
+constexpr float pickRadius = 4.0f;
 
 /// True when hair generated from `a` can differ from that of `b`.
 bool hairMayDiffer(const Groom& a, const Groom& b) {
@@ -50,6 +52,7 @@ Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
         setCursor(m_state.brush() ? Qt::CrossCursor : Qt::ArrowCursor);
         Q_EMIT hintChanged(hint());
         requestHeat();
+        requestHair();
         update();
     });
     connect(&m_heat, &HeatJob::delivered, this, qOverload<>(&QWidget::update));
@@ -80,6 +83,7 @@ void Viewport::initializeGL() {
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create();
     if (renderer) {
         m_renderer = std::move(*renderer);
+        m_lookedChanged = true;
     } else {
         Q_EMIT failed(QString::fromStdString(renderer.error().message));
     }
@@ -92,6 +96,7 @@ void Viewport::paintGL() {
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
     m_renderer->setTriangleColours(m_heat.colours());
+    if (std::exchange(m_lookedChanged, false)) m_renderer->setHighlight(m_looked, m_lookedBy);
     ViewSettings settings = viewSettings();
     // Until the hair is there, a quick picture: the final one would be drawn twice.
     settings.interactive = interacting() || m_hair.busy();
@@ -160,12 +165,29 @@ void Viewport::requestHair() {
     // Fewer hairs follow a stroke; turning the view keeps them all, so that none comes and goes.
     const bool live = (m_document.previewing() || m_settle.isActive()) && !m_navigation.active() &&
                       wanted > interactiveHairs && m_state.brush();
-    if (!hairMayDiffer(groom, m_seen) && live == m_seenInteractive) return;
+    GenerateOptions options;
+    options.hairCount = live ? interactiveHairs : wanted;
+    options.time = m_state.viewOptions().time;
+    options.lod = m_state.viewOptions().detail;
+    if (!hairMayDiffer(groom, m_seen) && options == m_seenOptions) return;
     const bool reseeded = !groom.mesh.sameAs(m_seen.mesh);
     m_seen = groom;
-    m_seenInteractive = live;
+    m_seenOptions = options;
     if (reseeded) m_strands.reset();
-    m_hair.request(groom, m_document.surface(), live ? interactiveHairs : wanted, m_document.previewing());
+    m_hair.request(groom, m_document.surface(), options, m_document.previewing());
+}
+
+void Viewport::setHighlight(std::vector<glm::vec3> hair, std::vector<std::vector<glm::vec3>> guides) {
+    m_looked = std::move(hair);
+    m_lookedBy = std::move(guides);
+    m_lookedChanged = true;
+    update();
+}
+
+void Viewport::pick(glm::vec2 pixel) {
+    if (!m_renderer || !m_strands) return;
+    const auto hair = m_renderer->pickHair(m_camera, pixel, pickRadius, glm::ivec2(sizePixels()));
+    Q_EMIT hairPicked(hair ? std::optional(m_strands->ids[*hair]) : std::nullopt);
 }
 
 void Viewport::requestHeat() {

@@ -40,11 +40,15 @@ public:
     /// Nothing is being generated, and the picture is the final one.
     bool settled() const;
     std::shared_ptr<const Strands> strands() const { return m_strands; }
+    /// Draws a hair and the guides that shape it over everything; empty for none.
+    void setHighlight(std::vector<glm::vec3> hair, std::vector<std::vector<glm::vec3>> guides);
     /// The view's settings with the tool's overlay, as they are drawn.
     ViewSettings viewSettings() const;
 
 Q_SIGNALS:
     void hintChanged(const QString& hint);
+    /// A click without a brush met the hair of this number in the groom; nothing when it met none.
+    void hairPicked(std::optional<std::uint32_t> id);
     /// A sentence for the artist (a brush that refuses, hair that can not be made).
     void said(const QString& sentence);
     /// Drawing is impossible on this machine.
@@ -78,6 +82,7 @@ private:
     bool dropAll();
     void setModifiers(Qt::KeyboardModifiers modifiers);
     void releaseRenderer();
+    void pick(glm::vec2 pixel);
     OverlayState overlay() const;
     Bounds sceneBounds() const;
     glm::vec2 sizePixels() const;
@@ -94,9 +99,13 @@ private:
     std::unique_ptr<Renderer> m_renderer;
     std::shared_ptr<const Strands> m_strands;
     Groom m_seen;  // what the last request for hair was made from
-    bool m_seenInteractive = false;
-    QTimer m_frame;   // draws when hair that was about to arrive is late
-    QTimer m_settle;  // runs out when the artist has been still for a moment
+    GenerateOptions m_seenOptions;
+    std::vector<glm::vec3> m_looked;
+    std::vector<std::vector<glm::vec3>> m_lookedBy;
+    bool m_lookedChanged = false;
+    std::optional<glm::vec2> m_click;  // where the left button went down, while the pointer has hardly moved
+    QTimer m_frame;                    // draws when hair that was about to arrive is late
+    QTimer m_settle;                   // runs out when the artist has been still for a moment
     glm::vec2 m_pixel{0.0f};
     bool m_inside = false;
     Qt::KeyboardModifiers m_modifiers;

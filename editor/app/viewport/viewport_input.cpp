@@ -3,13 +3,19 @@
 #include "editor/app/viewport/viewport.h"
 #include "editor/app/widgets/param_source.h"
 
+#include <glm/geometric.hpp>
+
 #include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QTabletEvent>
+#include <utility>
 
 namespace whorl {
 namespace {
+
+/// A pointer that moves less between press and release clicks; pixels.
+constexpr float clickSlack = 4.0f;
 
 glm::vec2 pixelOf(const QPointF& position) {
     return {static_cast<float>(position.x()), static_cast<float>(position.y())};
@@ -29,6 +35,8 @@ void Viewport::press(glm::vec2 pixel, Qt::MouseButton button, Qt::KeyboardModifi
     const Navigation::Mode mode = Navigation::modeFor(m_state.navigation(), button, modifiers, !m_state.brush());
     if (mode != Navigation::Mode::None) {
         m_navigation.begin(mode, pixel);
+        const bool plain = button == Qt::LeftButton && modifiers == Qt::NoModifier;
+        m_click = plain && !m_state.brush() ? std::optional(pixel) : std::nullopt;
         return;
     }
     if (button != Qt::LeftButton) return;
@@ -41,6 +49,7 @@ void Viewport::move(glm::vec2 pixel, Qt::KeyboardModifiers modifiers, float pres
     m_pixel = pixel;
     m_inside = true;
     setModifiers(modifiers);
+    if (m_click && glm::distance(*m_click, pixel) > clickSlack) m_click.reset();
     if (m_adjust.active()) {
         m_adjust.move(pixel);
     } else if (m_navigation.active()) {
@@ -55,6 +64,7 @@ void Viewport::release() {
     if (m_navigation.active()) {
         m_navigation.end();
         interacted();
+        if (const auto place = std::exchange(m_click, std::nullopt)) pick(*place);
     }
     if (m_stroke.active()) {
         m_stroke.finish();
@@ -64,6 +74,7 @@ void Viewport::release() {
 
 bool Viewport::dropAll() {
     const bool any = m_adjust.active() || m_stroke.active() || m_navigation.active();
+    m_click.reset();
     m_adjust.drop();
     m_stroke.drop();
     m_navigation.end();
@@ -188,7 +199,9 @@ QString Viewport::hint() const {
     }
     if (m_modifiers & Qt::AltModifier) return tr("Alt: left turns, middle moves, right zooms the view.");
     const BrushInfo* brush = m_state.brush();
-    if (!brush) return tr("Drag: turn the view. Shift: move. Ctrl: zoom. Wheel: zoom. Pick a tool to groom.");
+    if (!brush)
+        return tr(
+            "Drag: turn the view. Shift: move. Ctrl: zoom. Click a hair: why it is as it is. Pick a tool to groom.");
     const BrushInfo* used = StrokeInput::brushFor(m_state, m_modifiers);
     if (used != brush) return tr("Shift: smooth the guides under the brush.");
     if (m_modifiers & Qt::ControlModifier) return tr("Ctrl: the opposite of %1.").arg(qtext(brush->label));
