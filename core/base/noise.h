@@ -28,6 +28,17 @@ static constexpr std::int32_t permutation[512] = {
 #undef WHORL_PERLIN_PERMUTATION
 };
 
+// Two entries that follow one another, the second in the second byte: half as many look-ups.
+struct PermutationPairs {
+    std::int32_t at[511];
+};
+static constexpr PermutationPairs makePairs() {
+    PermutationPairs pairs{};
+    for (int i = 0; i < 511; ++i) pairs.at[i] = permutation[i] | permutation[i + 1] << 8;
+    return pairs;
+}
+static constexpr PermutationPairs pairs = makePairs();
+
 static inline float fade(float t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
@@ -65,14 +76,14 @@ static inline Cell cellAt(float placeX, float placeY, float placeZ) {
     const float x = limited(placeX), y = limited(placeY), z = limited(placeZ);
     const std::int32_t ix = floorToInt(x), iy = floorToInt(y), iz = floorToInt(z);
     const std::int32_t X = ix & 255, Y = iy & 255, Z = iz & 255;
-    const std::int32_t A = permutation[X] + Y, B = permutation[X + 1] + Y;
-    const std::int32_t AA = permutation[A] + Z, AB = permutation[A + 1] + Z;
-    const std::int32_t BA = permutation[B] + Z, BB = permutation[B + 1] + Z;
+    const std::int32_t both = pairs.at[X];
+    const std::int32_t a = pairs.at[(both & 255) + Y], b = pairs.at[(both >> 8) + Y];
+    const std::int32_t aa = pairs.at[(a & 255) + Z], ba = pairs.at[(b & 255) + Z], upper = pairs.at[(a >> 8) + Z],
+                       bb = pairs.at[(b >> 8) + Z];
     return {x - static_cast<float>(ix),
             y - static_cast<float>(iy),
             z - static_cast<float>(iz),
-            {permutation[AA], permutation[BA], permutation[AB], permutation[BB], permutation[AA + 1],
-             permutation[BA + 1], permutation[AB + 1], permutation[BB + 1]}};
+            {aa & 255, ba & 255, upper & 255, bb & 255, aa >> 8, ba >> 8, upper >> 8, bb >> 8}};
 }
 
 template <int Component>

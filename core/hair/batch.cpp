@@ -57,9 +57,9 @@ void countHairs(HairParts& parts, const GenerateOptions& options) {
     parts.countedFor = hairs;
 }
 
-std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,
-                                  Progress& progress) {
-    std::vector<HairTraits> traits = makeTraits(lookup, roots, progress);
+TraitList traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod, Progress& progress,
+                    TraitList old) {
+    TraitList traits = makeTraits(lookup, roots, progress, std::move(old));
     if (lod < 1.0f) {
         for (HairTraits& t : traits) widen(t, lod);
     }
@@ -69,7 +69,7 @@ std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const Hai
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress) {
     batch.inOrder();
     batch.bindings = bindHairs(parts.groom, parts.index, batch.roots, progress, std::move(batch.bindings));
-    batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress);
+    batch.traits = traitsFor(lookups.traits, batch.roots, lod, progress, std::move(batch.traits));
     batch.centres = centresOf(lookups.chain, parts.clumps, batch.roots, progress);
     if (progress.cancelled()) return;
     const HairSources sources = batch.sourcesOf(parts, lookups);
@@ -104,7 +104,7 @@ Result<void> eachBatch(const HairParts& parts, const HairLookups& lookups, const
 /// The hair of `batch`, which was grown at another time.
 void growAtTime(const HairParts& parts, const HairLookups& lookups, float lod, const Batch& batch, Strands& strands,
                 Progress& progress) {
-    const std::vector<HairTraits> traits = traitsFor(lookups.traits, batch.roots, lod, progress);
+    const TraitList traits = traitsFor(lookups.traits, batch.roots, lod, progress);
     if (progress.cancelled()) return;
     const HairSources sources{parts.groom,
                               batch.roots,

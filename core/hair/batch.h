@@ -60,7 +60,7 @@ struct Batch {
     /// All roots, as they are.
     void inOrder();
     Bindings bindings;
-    std::vector<HairTraits> traits;
+    TraitList traits;
     CentresOfHairs centres;
     GrownHairs grown;
     std::shared_ptr<Strands> strands = std::make_shared<Strands>();
@@ -86,9 +86,9 @@ std::size_t mostHairsOfRoot(const Groom& groom);
 /// 0, 1, 2 ... one a hair: for evaluateHairs.
 std::vector<std::uint32_t> allOf(const GrownHairs& grown);
 
-/// Traits of all roots at a level of detail (some left unset when cancelled).
-std::vector<HairTraits> traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod,
-                                  Progress& progress);
+/// Traits of all roots at a level of detail (some left unset when cancelled). `old` gives its memory.
+TraitList traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod, Progress& progress,
+                    TraitList old = {});
 
 /// All of the hair of `batch.roots`, which are in order. Unfinished when cancelled.
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress);

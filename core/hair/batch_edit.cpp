@@ -113,7 +113,7 @@ std::vector<std::uint32_t> takeSlots(Batch& batch, std::size_t count) {
     batch.traits.resize(next);
     batch.bindings.counts.resize(next);
     batch.bindings.guides.resize(next * batch.bindings.perHair);
-    batch.bindings.matrices.resize(next * batch.bindings.perHair * 9);
+    batch.bindings.weights.resize(next * batch.bindings.perHair);
     for (std::vector<std::uint32_t>& centres : batch.centres) centres.resize(next, ClumpCentres::none);
     return slots;
 }
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> takeSlots(Batch& batch, std::size_t count) {
 void fillSlots(const HairParts& parts, const HairLookups& lookups, float lod, const std::vector<HairRoot>& roots,
                std::span<const std::uint32_t> slots, Batch& batch, Progress& progress) {
     const Bindings bindings = bindHairs(parts.groom, parts.index, roots, progress);
-    const std::vector<HairTraits> traits = traitsFor(lookups.traits, roots, lod, progress);
+    const TraitList traits = traitsFor(lookups.traits, roots, lod, progress);
     const CentresOfHairs centres = centresOf(lookups.chain, parts.clumps, roots, progress);
     if (progress.cancelled()) return;
     const std::size_t places = bindings.perHair;
@@ -132,8 +132,8 @@ void fillSlots(const HairParts& parts, const HairLookups& lookups, float lod, co
         batch.bindings.counts[slot] = bindings.counts[i];
         std::copy_n(bindings.guides.begin() + static_cast<std::ptrdiff_t>(i * places), places,
                     batch.bindings.guides.begin() + static_cast<std::ptrdiff_t>(slot * places));
-        std::copy_n(bindings.matrices.begin() + static_cast<std::ptrdiff_t>(i * places * 9), places * 9,
-                    batch.bindings.matrices.begin() + static_cast<std::ptrdiff_t>(slot * places * 9));
+        std::copy_n(bindings.weights.begin() + static_cast<std::ptrdiff_t>(i * places), places,
+                    batch.bindings.weights.begin() + static_cast<std::ptrdiff_t>(slot * places));
         for (std::size_t c = 0; c < centres.size(); ++c) batch.centres[c][slot] = centres[c][i];
     }
 }
@@ -176,20 +176,6 @@ void copyRun(const Run& run, const Strands& from, Strands& to) {
     copy(from.normals, to.normals, first, last, run.vertices);
     copy(from.widths, to.widths, first, last, run.vertices);
     copy(from.colours, to.colours, first, last, run.vertices);
-}
-
-void resize(Strands& strands, std::size_t count, std::size_t vertices) {
-    strands.firstVertex.resize(count + 1);
-    strands.firstVertex[0] = 0;
-    strands.ids.resize(count);
-    strands.members.resize(count);
-    strands.roots.resize(count);
-    strands.rootUvs.resize(count);
-    strands.groups.resize(count);
-    strands.positions.resize(vertices);
-    strands.normals.resize(vertices);
-    strands.widths.resize(vertices);
-    strands.colours.resize(vertices);
 }
 
 // In pieces that threads can share.
@@ -340,7 +326,7 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
 
     const std::size_t strands = next.firstStrand.back();
     const auto all = static_cast<std::size_t>(static_cast<std::int64_t>(from.vertexCount()) + vertices);
-    resize(to, strands, all);
+    to.resize(strands, all);
     parallelFor(runs.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) copyRun(runs[i], from, to);
     });
@@ -355,7 +341,7 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
 }
 
 void copyStrands(const Strands& from, Strands& to) {
-    resize(to, from.count(), from.vertexCount());
+    to.resize(from.count(), from.vertexCount());
     parallelFor(from.count(), 1024, [&](std::size_t begin, std::size_t end) {
         copyRun({static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), 0, 0}, from, to);
     });

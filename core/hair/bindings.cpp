@@ -2,9 +2,7 @@
 #include "core/hair/bindings.h"
 
 #include "core/base/parallel.h"
-#include "core/hair/bindings.kernel.h"
 #include "core/hair/nearby_guides.h"
-#include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
 
@@ -17,40 +15,6 @@ namespace {
 // Hairs that look for their guides together, at most; far apart ones are halved down to the least number.
 constexpr std::size_t mostTogether = 64;
 constexpr std::size_t leastTogether = 4;
-
-// Turns collected until sixteen can be made at once.
-class Turns {
-public:
-    ~Turns() { flush(); }
-    void add(const glm::vec3& from, const glm::vec3& to, float weight, float* matrix) {
-        if (glm::dot(from, to) < -0.9f) {
-            // Nearly opposite: single precision has no digits left.
-            const glm::mat3 turn = minimalRotation(from, to);
-            for (int row = 0; row < 3; ++row)
-                for (int column = 0; column < 3; ++column) *matrix++ = weight * turn[column][row];
-            return;
-        }
-        for (int axis = 0; axis < 3; ++axis) {
-            m_turns.from[axis][m_count] = from[axis];
-            m_turns.to[axis][m_count] = to[axis];
-        }
-        m_turns.weight[m_count] = weight;
-        m_out[m_count] = matrix;
-        if (++m_count == guideLanes) flush();
-    }
-
-private:
-    void flush() {
-        if (m_count == 0) return;
-        WHORL_PICK(weightedTurns)(m_turns);
-        for (std::size_t i = 0; i < m_count; ++i)
-            for (std::size_t k = 0; k < 9; ++k) m_out[i][k] = m_turns.matrix[k][i];
-        m_count = 0;
-    }
-    TurnColumns m_turns{};
-    std::array<float*, guideLanes> m_out{};
-    std::size_t m_count = 0;
-};
 
 // Binds hairs of one thread.
 class Binder {
@@ -96,18 +60,10 @@ private:
 
     void write(std::size_t hair, std::size_t count) {
         const std::size_t first = hair * m_bindings.perHair;
-        const bool turned = m_groups[m_roots[hair].group].params.general.interpolation.index == 0;
         m_bindings.counts[hair] = static_cast<std::uint8_t>(count);
         for (std::size_t j = 0; j < count; ++j) {
-            const Neighbour& neighbour = m_neighbours[j];
-            m_bindings.guides[first + j] = neighbour.guide;
-            float* matrix = &m_bindings.matrices[(first + j) * 9];
-            if (turned) {
-                m_turns.add(neighbour.root->normal, m_roots[hair].normal, neighbour.weight, matrix);
-            } else {
-                std::fill_n(matrix, 9, 0.0f);
-                matrix[0] = matrix[4] = matrix[8] = neighbour.weight;
-            }
+            m_bindings.guides[first + j] = m_neighbours[j].guide;
+            m_bindings.weights[first + j] = m_neighbours[j].weight;
         }
     }
 
@@ -116,7 +72,6 @@ private:
     std::span<const HairRoot> m_roots;
     Bindings& m_bindings;
     NearbyGuides m_nearby;
-    Turns m_turns;
     std::array<Neighbour, GuideIndex::maxNeighbours> m_neighbours;
 };
 
@@ -136,7 +91,7 @@ Bindings bindHairs(const Groom& groom, const GuideIndex& index, std::span<const 
     const std::size_t places = roots.size() * bindings.perHair;
     bindings.counts.resize(roots.size());
     bindings.guides.resize(places);
-    bindings.matrices.resize(places * 9);
+    bindings.weights.resize(places);
     parallelFor(roots.size(), mostTogether * 16, [&](std::size_t begin, std::size_t end) {
         if (progress.cancelled()) return;
         Binder binder(groom, index, roots, bindings);

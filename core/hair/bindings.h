@@ -2,6 +2,7 @@
 // Hairs bound to the guides that shape them: worked out once, used at every stroke sample.
 #pragma once
 
+#include "core/base/plain_vector.h"
 #include "core/hair/guide_index.h"
 #include "core/hair/roots.h"
 
@@ -15,8 +16,8 @@ namespace whorl {
 struct Bindings {
     std::size_t perHair = 0;
     std::vector<std::uint8_t> counts;
-    std::vector<std::uint32_t> guides;  ///< indices in the GuideSet
-    std::vector<float> matrices;        ///< weight x turn from the guide's surface to the hair's, rows, 9 a place
+    PlainVector<std::uint32_t> guides;  ///< indices in the GuideSet
+    PlainVector<float> weights;         ///< those of a hair add up to 1
 };
 
 /// Binds `roots` (nothing useful when cancelled). Neighbouring roots should follow one another, as hairs do. `old`

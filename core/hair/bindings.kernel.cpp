@@ -20,25 +20,4 @@ void distancesToGuides(const GuideColumns& g, const float* root, float* squared)
     }
 }
 
-void weightedTurns(TurnColumns& t) {
-    for (std::size_t i = 0; i < guideLanes; ++i) {
-        const float fx = t.from[0][i], fy = t.from[1][i], fz = t.from[2][i];
-        const float tx = t.to[0][i], ty = t.to[1][i], tz = t.to[2][i];
-        const float wx = fy * tz - fz * ty, wy = fz * tx - fx * tz, wz = fx * ty - fy * tx;
-        const float cosine = fx * tx + fy * ty + fz * tz;
-        const float k = 1.0f / (1.0f + cosine);
-        const float weight = t.weight[i];
-        const float kx = k * wx, ky = k * wy;
-        t.matrix[0][i] = weight * (cosine + kx * wx);
-        t.matrix[1][i] = weight * (kx * wy - wz);
-        t.matrix[2][i] = weight * (kx * wz + wy);
-        t.matrix[3][i] = weight * (kx * wy + wz);
-        t.matrix[4][i] = weight * (cosine + ky * wy);
-        t.matrix[5][i] = weight * (ky * wz - wx);
-        t.matrix[6][i] = weight * (kx * wz - wy);
-        t.matrix[7][i] = weight * (ky * wz + wx);
-        t.matrix[8][i] = weight * (cosine + k * wz * wz);
-    }
-}
-
 }  // namespace whorl::WHORL_SIMD_NAMESPACE

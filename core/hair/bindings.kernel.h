@@ -21,20 +21,10 @@ struct GuideColumns {
     std::size_t count;
 };
 
-/// Sixteen turns at once: unit normals from and to (0 to 2: x, y, z), a weight, and the nine rows of the result.
-struct TurnColumns {
-    float from[3][guideLanes];
-    float to[3][guideLanes];
-    float weight[guideLanes];
-    float matrix[9][guideLanes];
-};
-
-#define WHORL_BINDING_KERNELS(level)                                                                  \
-    namespace level {                                                                                 \
-    /* rootDistanceSquared of a root (position and normal, 6 numbers) to every guide. */              \
-    void distancesToGuides(const GuideColumns& guides, const float* root, float* squared);            \
-    /* weight x minimalRotation(from, to), in single precision. Not for normals that are opposite. */ \
-    void weightedTurns(TurnColumns& turns);                                                           \
+#define WHORL_BINDING_KERNELS(level)                                                       \
+    namespace level {                                                                      \
+    /* rootDistanceSquared of a root (position and normal, 6 numbers) to every guide. */   \
+    void distancesToGuides(const GuideColumns& guides, const float* root, float* squared); \
     }
 WHORL_EACH_SIMD_LEVEL(WHORL_BINDING_KERNELS)
 #undef WHORL_BINDING_KERNELS

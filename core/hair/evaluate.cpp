@@ -5,19 +5,57 @@
 #include "core/hair/evaluator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace whorl {
 namespace {
 
-constexpr std::size_t blockHairs = 256;
+constexpr std::size_t blockHairs = 512;
+// More hair than this leaves the caches anyway.
+constexpr std::size_t cacheBytes = std::size_t{48} << 20;
+
+// Calls `work(evaluator, group, hairs)` for up to sixteen hairs of one group at a time, of those in `which`.
+template <class Work>
+void forLanes(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
+              Strands& strands, Progress* progress, Work&& work) {
+    const std::vector<GroupTables> tables = makeGroupTables(sources.groom, sources.chain);
+    const bool past = which.size() > grown.count() / 2 && strands.bytes() > cacheBytes;
+    parallelFor(which.size(), blockHairs, [&](std::size_t begin, std::size_t end) {
+        if (progress && progress->cancelled()) return;
+        Evaluator evaluator(sources, grown, strands, past);
+        std::vector<std::vector<std::uint32_t>> waiting(tables.size());
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint8_t group = sources.roots[grown.roots[which[i]]].group;
+            std::vector<std::uint32_t>& same = waiting[group];
+            same.push_back(which[i]);
+            if (same.size() < Evaluator::lanes) continue;
+            work(evaluator, tables[group], same);
+            same.clear();
+        }
+        for (std::size_t g = 0; g < tables.size(); ++g)
+            if (!waiting[g].empty()) work(evaluator, tables[g], waiting[g]);
+    });
+}
+
+// All that is one a hair of the strands [first, last) of a root.
+void setStrands(const HairRoot& root, std::uint32_t first, std::uint32_t last, Strands& strands) {
+    for (std::uint32_t strand = first; strand < last; ++strand) {
+        strands.ids[strand] = root.id;
+        strands.members[strand] = static_cast<std::uint8_t>(strand - first);
+        strands.roots[strand] = root.point;
+        strands.rootUvs[strand] = root.uv;
+        strands.groups[strand] = root.group;
+    }
+}
 
 }  // namespace
 
-std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress) {
-    std::vector<HairTraits> traits(roots.size());
+TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress, TraitList old) {
+    TraitList traits = std::move(old);
+    traits.resize(roots.size());
     parallelFor(roots.size(), 1024, [&](std::size_t begin, std::size_t end) {
         if (progress.cancelled()) return;
-        for (std::size_t i = begin; i < end; ++i) traits[i] = lookup.at(roots[i]);
+        lookup.at(roots.subspan(begin, end - begin), std::span(traits).subspan(begin, end - begin));
     });
     return traits;
 }
@@ -30,73 +68,75 @@ std::uint32_t verticesOfRoot(const HairSources& sources, std::uint32_t root) {
 }
 
 void setHair(const HairSources& sources, const GrownHairs& grown, std::uint32_t hair, Strands& strands) {
-    const HairRoot& root = sources.roots[grown.roots[hair]];
-    const std::uint32_t first = grown.firstStrand[hair];
-    for (std::uint32_t strand = first; strand < grown.firstStrand[hair + 1]; ++strand) {
-        strands.ids[strand] = root.id;
-        strands.members[strand] = static_cast<std::uint8_t>(strand - first);
-        strands.roots[strand] = root.point;
-        strands.rootUvs[strand] = root.uv;
-        strands.groups[strand] = root.group;
-    }
+    setStrands(sources.roots[grown.roots[hair]], grown.firstStrand[hair], grown.firstStrand[hair + 1], strands);
 }
 
 GrownHairs layOut(const HairSources& sources, Strands& strands) {
-    strands.clear();
-    GrownHairs grown;
-    std::uint32_t vertices = 0;
-    for (const std::uint32_t i : sources.order) {
-        const std::uint32_t each = verticesOfRoot(sources, i);
-        if (each == 0) continue;
-        const HairRoot& root = sources.roots[i];
-        const int hairs = std::max((*sources.groom.groups)[root.group].params.strands.hairs, 1);
-        for (int member = 0; member < hairs; ++member) {
-            vertices += each;
-            strands.firstVertex.push_back(vertices);
-            strands.ids.push_back(root.id);
-            strands.members.push_back(static_cast<std::uint8_t>(member));
-            strands.roots.push_back(root.point);
-            strands.rootUvs.push_back(root.uv);
-            strands.groups.push_back(root.group);
+    // What each block of roots grows, then where it goes.
+    struct Sums {
+        std::uint32_t hairs = 0, strands = 0, vertices = 0;
+    };
+    constexpr std::size_t blockRoots = 4096;
+    const std::vector<std::uint32_t>& order = sources.order;
+    const auto membersOf = [&](std::uint32_t root) {
+        const HairParams& params = (*sources.groom.groups)[sources.roots[root].group].params;
+        return static_cast<std::uint32_t>(std::max(params.strands.hairs, 1));
+    };
+    std::vector<Sums> before((order.size() + blockRoots - 1) / blockRoots + 1);
+    parallelFor(order.size(), blockRoots, [&](std::size_t begin, std::size_t end) {
+        Sums& sums = before[begin / blockRoots + 1];
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t vertices = verticesOfRoot(sources, order[i]);
+            if (vertices == 0) continue;
+            const std::uint32_t members = membersOf(order[i]);
+            ++sums.hairs;
+            sums.strands += members;
+            sums.vertices += members * vertices;
         }
-        grown.roots.push_back(i);
-        grown.firstStrand.push_back(static_cast<std::uint32_t>(strands.count()));
+    });
+    for (std::size_t b = 1; b < before.size(); ++b) {
+        before[b].hairs += before[b - 1].hairs;
+        before[b].strands += before[b - 1].strands;
+        before[b].vertices += before[b - 1].vertices;
     }
-    strands.positions.resize(vertices);
-    strands.normals.resize(vertices);
-    strands.widths.resize(vertices);
-    strands.colours.resize(vertices);
+    const Sums all = before.back();
+    GrownHairs grown;
+    grown.roots.resize(all.hairs);
+    grown.firstStrand.resize(all.hairs + std::size_t{1});
+    strands.resize(all.strands, all.vertices);
+    parallelFor(order.size(), blockRoots, [&](std::size_t begin, std::size_t end) {
+        Sums at = before[begin / blockRoots];
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t vertices = verticesOfRoot(sources, order[i]);
+            if (vertices == 0) continue;
+            const std::uint32_t members = membersOf(order[i]);
+            grown.roots[at.hairs] = order[i];
+            grown.firstStrand[at.hairs + 1] = at.strands + members;
+            for (std::uint32_t member = 0; member < members; ++member) {
+                at.vertices += vertices;
+                strands.firstVertex[++at.strands] = at.vertices;
+            }
+            setStrands(sources.roots[order[i]], at.strands - members, at.strands, strands);
+            ++at.hairs;
+        }
+    });
     return grown;
 }
 
 void evaluateHairs(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
                    Strands& strands, Progress& progress) {
-    const std::vector<GroupTables> tables = makeGroupTables(sources.groom);
-    parallelFor(which.size(), blockHairs, [&](std::size_t begin, std::size_t end) {
-        if (progress.cancelled()) return;
-        Evaluator evaluator(sources, grown, strands);
-        std::vector<std::vector<std::uint32_t>> waiting(tables.size());
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint8_t group = sources.roots[grown.roots[which[i]]].group;
-            std::vector<std::uint32_t>& same = waiting[group];
-            same.push_back(which[i]);
-            if (same.size() < Evaluator::lanes) continue;
-            evaluator.make(tables[group], same);
-            same.clear();
-        }
-        for (std::size_t g = 0; g < tables.size(); ++g)
-            if (!waiting[g].empty()) evaluator.make(tables[g], waiting[g]);
-    });
+    forLanes(sources, grown, which, strands, &progress,
+             [](Evaluator& evaluator, const GroupTables& group, std::span<const std::uint32_t> hairs) {
+                 evaluator.make(group, hairs);
+             });
 }
 
 void renewLook(const HairSources& sources, const GrownHairs& grown, std::span<const std::uint32_t> which,
                Strands& strands) {
-    const std::vector<GroupTables> tables = makeGroupTables(sources.groom);
-    parallelFor(which.size(), blockHairs, [&](std::size_t begin, std::size_t end) {
-        Evaluator evaluator(sources, grown, strands);
-        for (std::size_t i = begin; i < end; ++i)
-            evaluator.setLook(tables[sources.roots[grown.roots[which[i]]].group], which[i]);
-    });
+    forLanes(sources, grown, which, strands, nullptr,
+             [](Evaluator& evaluator, const GroupTables& group, std::span<const std::uint32_t> hairs) {
+                 evaluator.setLook(group, hairs);
+             });
 }
 
 }  // namespace whorl

@@ -15,12 +15,14 @@
 
 namespace whorl {
 
+using TraitList = PlainVector<HairTraits>;
+
 /// All that hairs are made of. Refers to its parts, which must outlive it; arrays have one entry a root.
 struct HairSources {
     const Groom& groom;
     const std::vector<HairRoot>& roots;
     const Bindings& bindings;
-    const std::vector<HairTraits>& traits;
+    const TraitList& traits;
     const GuideShapes& shapes;
     glm::vec3 kinkOffset;
     const SkinGuard* skin;  ///< null: nothing keeps outside
@@ -38,8 +40,9 @@ struct GrownHairs {
     std::size_t count() const { return roots.size(); }
 };
 
-/// Traits of all roots (some left unset when cancelled).
-std::vector<HairTraits> makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress);
+/// Traits of all roots (some left unset when cancelled). `old` gives its memory.
+TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress,
+                     TraitList old = {});
 
 /// Vertices of the hairs that a root grows; zero where it grows none.
 std::uint32_t verticesOfRoot(const HairSources& sources, std::uint32_t root);

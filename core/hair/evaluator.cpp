@@ -2,21 +2,34 @@
 #include "core/hair/evaluator.h"
 
 #include "core/base/polynomials.h"
-#include "core/hair/curve.h"
-#include "core/hair/shape.kernel.h"
-#include "core/model/modifiers/rows.h"
+#include "core/hair/curves.kernel.h"
 
 #include <algorithm>
 
 namespace whorl {
+namespace {
 
-std::vector<GroupTables> makeGroupTables(const Groom& groom) {
+// One coordinate of the Catmull-Rom curve of a lane (vertex v at [v * 16 + lane]) at `parameter`: see strandPoint.
+float laneCurveAt(const std::vector<float>& row, std::size_t lane, std::size_t points, float parameter) {
+    constexpr std::size_t lanes = Evaluator::lanes;
+    const std::size_t piece = std::min(static_cast<std::size_t>(parameter), points - 2);
+    const float t = parameter - static_cast<float>(piece);
+    const float a = row[(piece > 0 ? piece - 1 : 0) * lanes + lane], b = row[piece * lanes + lane],
+                c = row[(piece + 1) * lanes + lane], d = row[std::min(piece + 2, points - 1) * lanes + lane];
+    const float k1 = (c - a) * 0.5f, k2 = a - b * 2.5f + c * 2.0f - d * 0.5f, k3 = (d - a) * 0.5f + (b - c) * 1.5f;
+    return b + (k1 + (k2 + k3 * t) * t) * t;
+}
+
+}  // namespace
+
+std::vector<GroupTables> makeGroupTables(const Groom& groom, const ModifierChain& chain) {
     std::vector<GroupTables> tables;
     for (const Group& group : *groom.groups) {
         GroupTables t;
         t.group = tables.size();
         t.segments = std::max(group.params.general.segments, 1);
         t.stride = GuideShapes::stride(t.segments);
+        t.turned = group.params.general.interpolation.index == 0;
         t.keepOutside = group.params.general.keepOutside;
         t.members = static_cast<std::uint32_t>(std::max(group.params.strands.hairs, 0));
         t.usualWidth = group.params.general.rootThickness.value;
@@ -24,222 +37,184 @@ std::vector<GroupTables> makeGroupTables(const Groom& groom) {
             t.along.push_back(std::min(1.0f, static_cast<float>(v) / static_cast<float>(t.segments)));
             t.ease.push_back(smoothStep(4.0f * t.along.back()));
         }
+        if (looksAreEven(chain, t.group)) {
+            lookNumbers(chain, t.group, {}, t.tapers);
+            for (const float along : t.along) t.taperAlong.push_back(taperAt(t.tapers, along));
+        }
         tables.push_back(std::move(t));
     }
     return tables;
 }
 
+// Fills the lanes.
+void Evaluator::take(const GroupTables& group, std::span<const std::uint32_t> which) {
+    m_count = which.size();
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const std::uint32_t hair = which[std::min(l, m_count - 1)];
+        m_roots[l] = m_grown.roots[hair];
+        m_traits[l] = &m_sources.traits[m_roots[l]];
+        m_firstStrand[l] = m_grown.firstStrand[hair];
+        const std::uint32_t* first = &m_strands.firstVertex[m_firstStrand[l]];
+        m_vertices[l] = first[1] - first[0];
+        m_ends[l] = cutEnd(m_traits[l]->cut, group.segments).parameter;
+    }
+    // Parts of cache lines written past the caches would cost more than they save.
+    constexpr std::uint32_t wholeLines = 16;
+    m_past = m_mayPass && group.vertices() % wholeLines == 0 && !anyCut(group) &&
+             std::all_of(m_firstStrand, m_firstStrand + lanes,
+                         [&](std::uint32_t strand) { return m_strands.firstVertex[strand] % wholeLines == 0; });
+}
+
 void Evaluator::make(const GroupTables& group, std::span<const std::uint32_t> which) {
-    const std::size_t rows = static_cast<std::size_t>(group.segments) + 3;
-    for (std::vector<float>* row : {&m_x, &m_y, &m_z}) row->resize(lanes * group.stride);
-    for (Rows* all : {&m_row, &m_normal})
-        for (std::vector<float>& row : *all) row.resize(lanes * rows);
-    for (std::size_t i = 0; i < which.size(); ++i) m_roots[i] = m_grown.roots[which[i]];
-    shape(group, which.size());
-    if (!m_sources.chain.shapes(group.group).empty()) modify(group, which.size());
-    std::size_t most = 0;
-    for (std::size_t i = 0; i < which.size(); ++i) most = std::max(most, setPoints(group, which[i], i));
-    for (std::size_t l = which.size(); l < lanes; ++l) repeatLane(which.size() - 1, l, most + 1);
-    frame(most);
+    const std::size_t rows = (group.stride + 4) * lanes;
+    if (m_row[0].size() < rows) {
+        for (Rows* all : {&m_row, &m_normal})
+            for (std::vector<float>& row : *all) row.resize(rows);
+    }
+    take(group, which);
+    shape(group);
+    if (!m_sources.chain.shapes(group.group).empty()) modify(group);
+    if (group.keepOutside && m_sources.skin) keepOutside(group);
+    endRows(group);
     if (group.members > 0) {
-        makeMembers(group, which);
+        frame(group.vertices());
+        makeMembers(group);
     } else {
-        for (std::size_t i = 0; i < which.size(); ++i) store(m_row, m_normal, i, m_grown.firstStrand[which[i]]);
+        frame(*std::max_element(m_vertices, m_vertices + lanes));
+        store(m_row, m_normal, 0);
     }
-    for (std::size_t i = 0; i < which.size(); ++i) setLook(group, which[i]);
+    look(group);
 }
 
-void Evaluator::shape(const GroupTables& group, std::size_t count) {
+void Evaluator::setLook(const GroupTables& group, std::span<const std::uint32_t> which) {
+    take(group, which);
+    look(group);
+}
+
+void Evaluator::shape(const GroupTables& group) {
     const HairSources& s = m_sources;
-    for (std::size_t i = 0; i < count; ++i) {
-        const HairRoot& root = s.roots[m_roots[i]];
-        const glm::vec3 start = root.position + root.normal * s.traits[m_roots[i]].displacement;
-        for (int axis = 0; axis < 3; ++axis) m_starts[i * 3 + static_cast<std::size_t>(axis)] = start[axis];
-        m_surfaceX[i] = root.normal.x;
-        m_surfaceY[i] = root.normal.y;
-        m_surfaceZ[i] = root.normal.z;
+    for (std::size_t l = 0; l < lanes; ++l) m_shaper.set(l, s.roots[m_roots[l]], *m_traits[l]);
+    for (std::vector<float>& axis : m_hairs) axis.resize(lanes * group.stride);
+    const ShapeSpace space{group.turned, group.stride, group.along.data(), group.ease.data(), s.kinkOffset};
+    m_shaper.shape(space, s.shapes, s.bindings, m_roots, m_count, m_hairs[0].data(), m_hairs[1].data(),
+                   m_hairs[2].data());
+    LaneArrays arrays{};
+    arrays.stride = group.stride;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        float* hairs = m_hairs[axis].data();
+        for (std::size_t l = m_count; l < lanes; ++l)
+            std::copy_n(hairs + (m_count - 1) * group.stride, group.stride, hairs + l * group.stride);
+        arrays.hairs[axis] = hairs;
+        arrays.rows[axis] = m_row[axis].data();
     }
-    const ShapeArrays arrays{s.shapes.x.data(),
-                             s.shapes.y.data(),
-                             s.shapes.z.data(),
-                             s.shapes.first.data(),
-                             s.bindings.perHair,
-                             s.bindings.counts.data(),
-                             s.bindings.guides.data(),
-                             s.bindings.matrices.data(),
-                             s.traits.data(),
-                             m_roots,
-                             m_starts,
-                             group.stride,
-                             group.along.data(),
-                             group.ease.data(),
-                             {s.kinkOffset.x, s.kinkOffset.y, s.kinkOffset.z},
-                             m_x.data(),
-                             m_y.data(),
-                             m_z.data()};
-    WHORL_PICK(shapeHairs)(arrays, 0, count);
+    WHORL_PICK(hairsToLanes)(arrays);
 }
 
-// All modifiers of the group, sixteen hairs in lanes.
-void Evaluator::modify(const GroupTables& group, std::size_t count) {
-    const std::size_t full = static_cast<std::size_t>(group.segments) + 1;
-    std::vector<float>* const hairs[3] = {&m_x, &m_y, &m_z};
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::vector<float>& from = *hairs[axis];
-        std::vector<float>& to = m_row[static_cast<std::size_t>(axis)];
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const float* hair = &from[std::min(l, count - 1) * group.stride];
-            for (std::size_t v = 0; v < full; ++v) to[v * lanes + l] = hair[v];
+void Evaluator::keepOutside(const GroupTables& group) {
+    m_points.resize(group.vertices());
+    for (std::size_t l = 0; l < lanes; ++l) {
+        if (l < m_count) {
+            for (std::size_t v = 0; v < m_points.size(); ++v)
+                m_points[v] = {m_row[0][v * lanes + l], m_row[1][v * lanes + l], m_row[2][v * lanes + l]};
+            m_sources.skin->keepOutside(m_points, group.ease);
+        }
+        for (std::size_t v = 0; v < m_points.size(); ++v) {
+            m_row[0][v * lanes + l] = m_points[v].x;
+            m_row[1][v * lanes + l] = m_points[v].y;
+            m_row[2][v * lanes + l] = m_points[v].z;
         }
     }
-    for (std::size_t l = 0; l < lanes; ++l) {
-        const HairRoot& root = m_sources.roots[m_roots[std::min(l, count - 1)]];
-        m_keys[l] = m_locks[l] = ModifierChain::hairKey(root.id);
-    }
-    m_scratch.resize(ModifierArrays::scratchRows * full * lanes);
-    for (const ModifierStep& step : m_sources.chain.shapes(group.group)) runStep(group, step, count);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::vector<float>& from = m_row[static_cast<std::size_t>(axis)];
-        std::vector<float>& to = *hairs[axis];
-        for (std::size_t l = 0; l < count; ++l)
-            for (std::size_t v = 0; v < full; ++v) to[l * group.stride + v] = from[v * lanes + l];
+}
+
+// Cuts single hairs, and gives all one more row that goes straight on.
+void Evaluator::endRows(const GroupTables& group) {
+    if (group.members > 0 || !anyCut(group)) {
+        straightOn(m_row, group);
+    } else {
+        for (std::size_t l = 0; l < lanes; ++l) cutLane(m_row, group, l);
     }
 }
 
-void Evaluator::runStep(const GroupTables& group, const ModifierStep& step, std::size_t count) {
-    const HairSources& s = m_sources;
-    m_numbers.resize(step.numbers.size() * lanes);
-    for (std::size_t r = 0; r < step.numbers.size(); ++r) {
-        const ModifierNumber& number = step.numbers[r];
-        float* row = &m_numbers[r * lanes];
-        if (!number.map) {
-            std::fill_n(row, lanes, number.at({}));
-            continue;
-        }
-        for (std::size_t l = 0; l < lanes; ++l) row[l] = l < count ? number.at(s.roots[m_roots[l]].uv) : row[count - 1];
-    }
-    // Nothing to do where the map of the amount is black.
-    if (std::all_of(&m_numbers[lanes], &m_numbers[2 * lanes], [](float amount) { return amount <= 0.0f; })) return;
-
-    ModifierArrays arrays{};
-    arrays.vertices = static_cast<std::size_t>(group.segments) + 1;
-    arrays.x = m_row[0].data();
-    arrays.y = m_row[1].data();
-    arrays.z = m_row[2].data();
-    arrays.scratch = m_scratch.data();
-    arrays.along = group.along.data();
-    arrays.ease = group.ease.data();
-    arrays.numbers = m_numbers.data();
-    arrays.random = m_random;
-    s.chain.noiseOffset(step, arrays.offset);
-    for (std::size_t l = 0; l < lanes; ++l) {
-        float random[ModifierArrays::randomRows];
-        s.chain.random(step, step.shared ? m_locks[l] : m_keys[l], random);
-        for (std::size_t r = 0; r < ModifierArrays::randomRows; ++r) m_random[r * lanes + l] = random[r];
-    }
-    std::uint32_t first[lanes] = {};
-    float weight[lanes] = {}, thickness[lanes];
-    if (step.kind == modifierKindOf<ClumpParams>) {
-        const ClumpCentres& centres = s.clumps.clumps[step.clump];
-        if (centres.empty()) return;
-        const std::vector<std::uint32_t>& nearest = s.centres[step.clump];
-        const float* flyaways = &m_numbers[ClumpRows::Flyaways * lanes];
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const std::uint32_t centre = nearest[m_roots[std::min(l, count - 1)]];
-            if (centre == ClumpCentres::none) continue;
-            first[l] = centre * static_cast<std::uint32_t>(centres.stride);
-            weight[l] = 1.0f;
-            const bool gathered = m_random[l] >= flyaways[l] && m_numbers[lanes + l] > 0.0f;
-            if (gathered) m_locks[l] = ModifierChain::lockKey(centres.roots[centre].id);
-        }
-        arrays.centreX = centres.x.data();
-        arrays.centreY = centres.y.data();
-        arrays.centreZ = centres.z.data();
-    }
-    for (std::size_t l = 0; l < lanes; ++l) {
-        const float width = s.traits[m_roots[std::min(l, count - 1)]].thickness;
-        thickness[l] = group.usualWidth > 0.0f ? width / group.usualWidth : 1.0f;
-    }
-    arrays.centreFirst = first;
-    arrays.centreWeight = weight;
-    arrays.thickness = thickness;
-    modifierKernel(step.kind)(arrays);
+bool Evaluator::anyCut(const GroupTables& group) const {
+    return std::any_of(m_ends, m_ends + lanes, [&](float end) { return end < static_cast<float>(group.segments); });
 }
 
-// Keeps the hair outside and puts it into lane `lane`, cut unless members are to be made from it, with one more row
-// that goes straight on. Returns its vertex count.
-std::size_t Evaluator::setPoints(const GroupTables& group, std::uint32_t hair, std::size_t lane) {
-    const std::size_t full = static_cast<std::size_t>(group.segments) + 1;
-    const std::size_t row = lane * group.stride;
-    m_points.resize(full);
-    for (std::size_t v = 0; v < full; ++v) m_points[v] = {m_x[row + v], m_y[row + v], m_z[row + v]};
-    if (group.keepOutside && m_sources.skin) m_sources.skin->keepOutside(m_points, group.ease);
-    std::size_t vertices = full;
-    if (group.members == 0) {
-        const std::uint32_t strand = m_grown.firstStrand[hair];
-        vertices = m_strands.firstVertex[strand + 1] - m_strands.firstVertex[strand];
-        const CutEnd end = cutEnd(m_sources.traits[m_grown.roots[hair]].cut, group.segments);
-        if (end.parameter < static_cast<float>(group.segments))
-            m_points[vertices - 1] = strandPoint(m_points, end.parameter);
+void Evaluator::straightOn(Rows& rows, const GroupTables& group) {
+    for (std::vector<float>& row : rows) {
+        float* on = &row[group.vertices() * lanes];
+        const float *last = on - lanes, *before = last - lanes;
+        for (std::size_t l = 0; l < lanes; ++l) on[l] = last[l] * 2.0f - before[l];
     }
-    for (std::size_t v = 0; v < vertices; ++v) setRow(v, lane, m_points[v]);
-    const glm::vec3 on = m_points[vertices - 1] * 2.0f - m_points[vertices - 2];
-    for (std::size_t v = vertices; v < full + 2; ++v) setRow(v, lane, on);
-    return vertices;
 }
 
-void Evaluator::setRow(std::size_t v, std::size_t lane, const glm::vec3& p) {
-    m_row[0][v * lanes + lane] = p.x;
-    m_row[1][v * lanes + lane] = p.y;
-    m_row[2][v * lanes + lane] = p.z;
-}
-
-void Evaluator::repeatLane(std::size_t from, std::size_t to, std::size_t rows) {
-    for (std::size_t v = 0; v < rows; ++v)
-        setRow(v, to, {m_row[0][v * lanes + from], m_row[1][v * lanes + from], m_row[2][v * lanes + from]});
-    m_surfaceX[to] = m_surfaceX[from];
-    m_surfaceY[to] = m_surfaceY[from];
-    m_surfaceZ[to] = m_surfaceZ[from];
+// Ends rows of a lane where its hair is cut, and lets them go straight on from there.
+void Evaluator::cutLane(Rows& rows, const GroupTables& group, std::size_t lane) const {
+    const std::size_t full = group.vertices(), vertices = m_vertices[lane];
+    const bool cut = m_ends[lane] < static_cast<float>(group.segments);
+    for (std::vector<float>& row : rows) {
+        const std::size_t last = (vertices - 1) * lanes + lane;
+        if (cut) row[last] = laneCurveAt(row, lane, full, m_ends[lane]);
+        const float on = row[last] * 2.0f - row[last - lanes];
+        for (std::size_t v = vertices; v < full + 2; ++v) row[v * lanes + lane] = on;
+    }
 }
 
 void Evaluator::frame(std::size_t vertices) {
-    const FrameArrays arrays{m_row[0].data(),    m_row[1].data(),   m_row[2].data(), m_surfaceX,
-                             m_surfaceY,         m_surfaceZ,        vertices,        m_normal[0].data(),
+    const HairLanes& hairs = m_shaper.hairs();
+    const FrameArrays arrays{m_row[0].data(),    m_row[1].data(),   m_row[2].data(), hairs.normalX,
+                             hairs.normalY,      hairs.normalZ,     vertices,        m_normal[0].data(),
                              m_normal[1].data(), m_normal[2].data()};
     WHORL_PICK(frameHairs)(arrays);
 }
 
-void Evaluator::store(const Rows& points, const Rows& normals, std::size_t lane, std::size_t strand) {
-    const std::size_t first = m_strands.firstVertex[strand];
-    const std::size_t vertices = m_strands.firstVertex[strand + 1] - first;
-    for (std::size_t v = 0; v < vertices; ++v) {
-        const std::size_t from = v * lanes + lane;
-        m_strands.positions[first + v] = {points[0][from], points[1][from], points[2][from]};
-        m_strands.normals[first + v] = {normals[0][from], normals[1][from], normals[2][from]};
+// Writes the hairs, or that member of their strands.
+void Evaluator::store(const Rows& points, const Rows& normals, std::uint32_t member) {
+    float *pointsOut[lanes], *normalsOut[lanes];
+    for (std::size_t l = 0; l < m_count; ++l) {
+        const std::size_t first = m_strands.firstVertex[m_firstStrand[l] + member];
+        pointsOut[l] = &m_strands.positions[first].x;
+        normalsOut[l] = &m_strands.normals[first].x;
+    }
+    WHORL_PICK(storeVectors)
+    ({m_count, {points[0].data(), points[1].data(), points[2].data()}, m_vertices, pointsOut, m_past});
+    WHORL_PICK(storeVectors)
+    ({m_count, {normals[0].data(), normals[1].data(), normals[2].data()}, m_vertices, normalsOut, m_past});
+}
+
+// Widths and colours of the hairs and their members.
+void Evaluator::look(const GroupTables& group) {
+    float last[lanes];
+    float *widths[lanes], *colours[lanes];
+    for (std::size_t l = 0; l < m_count; ++l) {
+        const std::size_t first = m_strands.firstVertex[m_firstStrand[l]];
+        last[l] = m_ends[l] / static_cast<float>(group.segments);
+        widths[l] = &m_strands.widths[first];
+        colours[l] = &m_strands.colours[first].x;
+    }
+    WHORL_PICK(lookHairs)
+    ({m_count, m_traits, m_vertices, last, group.along.data(), widths, colours, m_past});
+    if (!m_sources.chain.looks(group.group).empty()) {
+        for (std::size_t l = 0; l < m_count; ++l) taper(group, l, last[l], widths[l]);
+    }
+    for (std::size_t l = 0; l < m_count && group.members > 1; ++l) {
+        for (std::uint32_t member = 1; member < group.members; ++member) {
+            const std::size_t to = m_strands.firstVertex[m_firstStrand[l] + member];
+            std::copy_n(widths[l], m_vertices[l], &m_strands.widths[to]);
+            std::copy_n(colours[l], std::size_t{4} * m_vertices[l], &m_strands.colours[to].x);
+        }
     }
 }
 
-void Evaluator::setLook(const GroupTables& group, std::uint32_t hair) {
-    const std::size_t root = m_grown.roots[hair];
-    const HairTraits& traits = m_sources.traits[root];
-    const std::uint32_t firstStrand = m_grown.firstStrand[hair], lastStrand = m_grown.firstStrand[hair + 1];
-    const std::size_t first = m_strands.firstVertex[firstStrand];
-    const std::size_t vertices = m_strands.firstVertex[firstStrand + 1] - first;
-    const float last = cutEnd(traits.cut, group.segments).parameter / static_cast<float>(group.segments);
-    const glm::vec4 rootColour(traits.rootColour[0], traits.rootColour[1], traits.rootColour[2], traits.rootColour[3]);
-    const glm::vec4 tipColour(traits.tipColour[0], traits.tipColour[1], traits.tipColour[2], traits.tipColour[3]);
-    lookNumbers(m_sources.chain, group.group, m_sources.roots[root].uv, m_taper);
-    for (std::size_t v = 0; v < vertices; ++v) {
-        const float along = v + 1 < vertices ? group.along[v] : last;
-        const float width = traits.rootWidth + (traits.tipWidth - traits.rootWidth) * along;
-        m_strands.widths[first + v] = m_taper.empty() ? width : width * taperAt(m_taper, along);
-        m_strands.colours[first + v] = rootColour + (tipColour - rootColour) * along;
+// What tapers make of the widths of a lane, which ends at `last`.
+void Evaluator::taper(const GroupTables& group, std::size_t lane, float last, float* widths) {
+    const std::size_t end = m_vertices[lane] - 1;
+    if (!group.tapers.empty()) {
+        for (std::size_t v = 0; v < end; ++v) widths[v] *= group.taperAlong[v];
+        widths[end] *= taperAt(group.tapers, last);
+        return;
     }
-    for (std::uint32_t strand = firstStrand + 1; strand < lastStrand; ++strand) {
-        const std::size_t to = m_strands.firstVertex[strand];
-        std::copy_n(&m_strands.widths[first], vertices, &m_strands.widths[to]);
-        std::copy_n(&m_strands.colours[first], vertices, &m_strands.colours[to]);
-    }
+    lookNumbers(m_sources.chain, group.group, m_sources.roots[m_roots[lane]].uv, m_tapers);
+    for (std::size_t v = 0; v <= end; ++v) widths[v] *= taperAt(m_tapers, v < end ? group.along[v] : last);
 }
 
 }  // namespace whorl

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/hair/evaluate.h"
+#include "core/hair/shaper.h"
 
 #include <array>
 #include <cstdint>
@@ -16,54 +17,70 @@ struct GroupTables {
     std::size_t group = 0;
     int segments = 1;
     std::size_t stride = GuideShapes::lanes;
+    bool turned = true;
     bool keepOutside = false;
     std::uint32_t members = 0;       ///< hairs of a strand, 0: single hairs
     float usualWidth = 0.0f;         ///< root thickness without maps
     std::vector<float> along, ease;  ///< `stride` entries, see ShapeArrays
+    std::vector<float> tapers;       ///< numbers of all tapers where no map changes them, else empty
+    std::vector<float> taperAlong;   ///< what they make of a width at each vertex
+    std::size_t vertices() const { return static_cast<std::size_t>(segments) + 1; }
 };
-std::vector<GroupTables> makeGroupTables(const Groom& groom);
+std::vector<GroupTables> makeGroupTables(const Groom& groom, const ModifierChain& chain);
 
 /// One object a thread.
 class Evaluator {
 public:
     static constexpr std::size_t lanes = GuideShapes::lanes;
 
-    Evaluator(const HairSources& sources, const GrownHairs& grown, Strands& strands)
-        : m_sources(sources), m_grown(grown), m_strands(strands) {}
+    /// `past`: writes past the caches, for much hair that is not read at once.
+    Evaluator(const HairSources& sources, const GrownHairs& grown, Strands& strands, bool past)
+        : m_sources(sources), m_grown(grown), m_strands(strands), m_mayPass(past) {}
 
     /// Up to sixteen hairs of one group, by place in `grown`.
     void make(const GroupTables& group, std::span<const std::uint32_t> which);
-    /// Widths and colours of one hair and its members.
-    void setLook(const GroupTables& group, std::uint32_t hair);
+    /// Widths and colours of up to sixteen hairs of one group and their members.
+    void setLook(const GroupTables& group, std::span<const std::uint32_t> which);
 
 private:
     using Rows = std::array<std::vector<float>, 3>;  // x, y, z: vertex v of lane l at [v * 16 + l]
 
-    void shape(const GroupTables& group, std::size_t count);
-    void modify(const GroupTables& group, std::size_t count);
-    void runStep(const GroupTables& group, const ModifierStep& step, std::size_t count);
-    std::size_t setPoints(const GroupTables& group, std::uint32_t hair, std::size_t lane);
-    void setRow(std::size_t v, std::size_t lane, const glm::vec3& p);
-    void repeatLane(std::size_t from, std::size_t to, std::size_t rows);
+    void take(const GroupTables& group, std::span<const std::uint32_t> which);
+    void shape(const GroupTables& group);
+    void modify(const GroupTables& group);
+    void runStep(const GroupTables& group, const ModifierStep& step);
+    void setNumbers(const ModifierStep& step);
+    void keepOutside(const GroupTables& group);
+    void endRows(const GroupTables& group);
+    bool anyCut(const GroupTables& group) const;
+    static void straightOn(Rows& rows, const GroupTables& group);
+    void cutLane(Rows& rows, const GroupTables& group, std::size_t lane) const;
     void frame(std::size_t vertices);
-    void makeMembers(const GroupTables& group, std::span<const std::uint32_t> which);
-    void cutRows(const GroupTables& group, std::size_t lane, std::size_t root);
-    void store(const Rows& points, const Rows& normals, std::size_t lane, std::size_t strand);
+    void makeMembers(const GroupTables& group);
+    void store(const Rows& points, const Rows& normals, std::uint32_t member);
+    void look(const GroupTables& group);
+    void taper(const GroupTables& group, std::size_t lane, float last, float* widths);
 
     const HairSources& m_sources;
     const GrownHairs& m_grown;
     Strands& m_strands;
+    const bool m_mayPass;
+    // The hairs in the lanes; those beyond m_count repeat the last one.
+    std::size_t m_count = 0;
     std::uint32_t m_roots[lanes] = {};  // places in HairSources::roots
-    float m_starts[lanes * 3] = {};
-    float m_surfaceX[lanes] = {}, m_surfaceY[lanes] = {}, m_surfaceZ[lanes] = {};
-    std::vector<float> m_x, m_y, m_z;  // hair by hair: vertex v of lane l at [l * stride + v]
+    std::uint32_t m_firstStrand[lanes] = {};
+    const HairTraits* m_traits[lanes] = {};
+    std::uint32_t m_vertices[lanes] = {};  // that the hair has
+    float m_ends[lanes] = {};              // curve parameter that it is cut at, 0 to segments
+    bool m_past = false;                   // to be written past the caches
+    Shaper m_shaper;
+    std::array<std::vector<float>, 3> m_hairs;  // vertex v of lane l at [l * stride + v]
     std::vector<glm::vec3> m_points;
     Rows m_row, m_normal, m_u, m_v, m_w, m_member, m_memberNormal;
-    std::vector<float> m_scratch, m_numbers;
+    std::vector<float> m_scratch, m_numbers, m_tapers;
     float m_random[ModifierArrays::randomRows * lanes] = {};
     std::uint64_t m_keys[lanes] = {};   // of hairs for random numbers
     std::uint64_t m_locks[lanes] = {};  // of the last lock that gathered them, else that of the hair
-    std::vector<float> m_taper;
 };
 
 /// Place of member `member` of `count` in the disc around its base hair: across and up in -1 to 1, lift in 0 to 1.

@@ -19,10 +19,10 @@ static inline void tangents(const float* fromX, const float* fromY, const float*
         const float x = toX[l] - fromX[l], y = toY[l] - fromY[l], z = toZ[l] - fromZ[l];
         const float squared = x * x + y * y + z * z;
         const bool good = squared > tiny;
-        const float length = __builtin_sqrtf(good ? squared : 1.0f);
-        t.x[l] = good ? x / length : t.x[l];
-        t.y[l] = good ? y / length : t.y[l];
-        t.z[l] = good ? z / length : t.z[l];
+        const float inverse = 1.0f / __builtin_sqrtf(good ? squared : 1.0f);
+        t.x[l] = good ? x * inverse : t.x[l];
+        t.y[l] = good ? y * inverse : t.y[l];
+        t.z[l] = good ? z * inverse : t.z[l];
     }
 }
 
@@ -40,10 +40,10 @@ static inline void straighten(const Vectors& t, Vectors& r, float least) {
         const float ex = -tx * other, ey = ay - ty * other, ez = az - tz * other;
         const float otherSquared = ex * ex + ey * ey + ez * ez;
         const bool good = squared > least;
-        const float length = __builtin_sqrtf(good ? squared : otherSquared);
-        r.x[l] = (good ? x : ex) / length;
-        r.y[l] = (good ? y : ey) / length;
-        r.z[l] = (good ? z : ez) / length;
+        const float inverse = 1.0f / __builtin_sqrtf(good ? squared : otherSquared);
+        r.x[l] = (good ? x : ex) * inverse;
+        r.y[l] = (good ? y : ey) * inverse;
+        r.z[l] = (good ? z : ez) * inverse;
     }
 }
 

@@ -10,8 +10,9 @@
 namespace whorl {
 namespace {
 
-// Above this many hairs nothing is kept for the next call: it would cost more memory than the hair.
-constexpr double mostKept = 1 << 20;
+// Above this many hairs nothing is kept for the next call: roots, neighbours and traits take a third of the hair's
+// memory again.
+constexpr double mostKept = 1 << 22;
 
 Error tooLarge(std::uint64_t hairs) {
     return {std::to_string(hairs) +

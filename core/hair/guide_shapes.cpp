@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/guide_shapes.h"
 
+#include "core/surface/surface_point.h"
+
 namespace whorl {
 namespace {
 
@@ -13,10 +15,15 @@ int segmentsOf(const Groom& groom, std::uint8_t group) {
 GuideShapes::GuideShapes(const Groom& groom) {
     std::size_t total = 0;
     first.reserve(groom.guides.count());
+    normals.reserve(groom.guides.count() * 3);
     for (std::size_t b = 0; b < groom.guides.blockCount(); ++b) {
-        for (const std::uint8_t group : groom.guides.block(b).groups) {
-            first.push_back(total);
-            total += stride(segmentsOf(groom, group));
+        const GuideBlock& block = groom.guides.block(b);
+        for (std::size_t i = 0; i < block.count(); ++i) {
+            first.push_back(static_cast<std::uint32_t>(total));
+            total += stride(segmentsOf(groom, block.groups[i]));
+            const bool there = block.roots[i].triangle < groom.mesh->triangleCount();
+            const glm::vec3 normal = there ? normalAt(*groom.mesh, block.roots[i]) : glm::vec3(0, 1, 0);
+            normals.insert(normals.end(), {normal.x, normal.y, normal.z});
         }
     }
     x.assign(total, 0.0f);

@@ -14,8 +14,9 @@ namespace whorl {
 struct GuideShapes {
     static constexpr std::size_t lanes = 16;
 
-    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> first;
     std::vector<float> x, y, z;
+    std::vector<float> normals;  ///< of the skin at the guides' roots, three a guide
 
     GuideShapes() = default;
     explicit GuideShapes(const Groom& groom);

@@ -105,7 +105,7 @@ void KeptHair::regrowAll(const HairParts& parts, const HairLookups& lookups, con
                          Progress& progress) {
     if (changes.bindings)
         m_batch.bindings = bindHairs(parts.groom, parts.index, m_batch.roots, progress, std::move(m_batch.bindings));
-    m_batch.traits = traitsFor(lookups.traits, m_batch.roots, m_wish.lod, progress);
+    m_batch.traits = traitsFor(lookups.traits, m_batch.roots, m_wish.lod, progress, std::move(m_batch.traits));
     if (changes.clumps) m_batch.centres = centresOf(lookups.chain, parts.clumps, m_batch.roots, progress);
     if (progress.cancelled()) return;
     m_thin.reset();
@@ -118,7 +118,8 @@ void KeptHair::regrowAll(const HairParts& parts, const HairLookups& lookups, con
 // Some hairs come, go or change.
 void KeptHair::edit(const HairParts& parts, const HairLookups& lookups, const HairWish& wish,
                     const HairChanges& changes, Progress& progress) {
-    if (changes.look) m_batch.traits = traitsFor(lookups.traits, m_batch.roots, wish.lod, progress);
+    if (changes.look)
+        m_batch.traits = traitsFor(lookups.traits, m_batch.roots, wish.lod, progress, std::move(m_batch.traits));
     BatchEdit shape, look;
     if (!changes.places.empty()) {
         const std::vector<RootRange> ranges = rangesOf(parts.sampler.curve(), changes.places, wish.range);

@@ -9,13 +9,13 @@
 namespace whorl {
 namespace {
 
-template <class T>
-std::size_t bytesOf(const std::vector<T>& values) {
-    return values.size() * sizeof(T);
+template <class Values>
+std::size_t bytesOf(const Values& values) {
+    return values.size() * sizeof(values[0]);
 }
 
-template <class T>
-void appendTo(std::vector<T>& values, const std::vector<T>& more) {
+template <class Values>
+void appendTo(Values& values, const Values& more) {
     values.insert(values.end(), more.begin(), more.end());
 }
 
@@ -57,6 +57,20 @@ void Strands::clear() {
     normals.clear();
     widths.clear();
     colours.clear();
+}
+
+void Strands::resize(std::size_t hairs, std::size_t vertices) {
+    firstVertex.resize(hairs + 1);
+    firstVertex[0] = 0;
+    ids.resize(hairs);
+    members.resize(hairs);
+    roots.resize(hairs);
+    rootUvs.resize(hairs);
+    groups.resize(hairs);
+    positions.resize(vertices);
+    normals.resize(vertices);
+    widths.resize(vertices);
+    colours.resize(vertices);
 }
 
 Bounds Strands::bounds() const {

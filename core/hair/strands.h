@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/hash.h"
+#include "core/base/plain_vector.h"
 #include "core/surface/surface_point.h"
 
 #include <glm/vec2.hpp>
@@ -26,17 +27,19 @@ struct Strands {
     std::vector<glm::vec2> rootUvs;
     std::vector<std::uint8_t> groups;
 
-    // One a vertex.
-    std::vector<glm::vec3> positions;  ///< metres, space of the mesh
-    std::vector<glm::vec3> normals;    ///< unit, perpendicular to the curve, rotation minimising (Wang et al. 2008)
-    std::vector<float> widths;         ///< diameter, metres
-    std::vector<glm::vec4> colours;    ///< linear RGB and opacity
+    // One a vertex. resize() leaves what it adds unset.
+    PlainVector<glm::vec3> positions;  ///< metres, space of the mesh
+    PlainVector<glm::vec3> normals;    ///< unit, perpendicular to the curve, rotation minimising (Wang et al. 2008)
+    PlainVector<float> widths;         ///< diameter, metres
+    PlainVector<glm::vec4> colours;    ///< linear RGB and opacity
 
     std::size_t count() const { return ids.size(); }
     std::size_t vertexCount() const { return positions.size(); }
     std::size_t bytes() const;
     void append(const Strands& more);
     void clear();
+    /// Room for so many; what is new is unset, all but firstVertex[0] is to be filled in.
+    void resize(std::size_t hairs, std::size_t vertices);
 
     /// Exact box of the rendered curve with its width, not only of the vertices.
     Bounds bounds() const;

@@ -34,9 +34,8 @@ float thresholdOf(const Groom& groom, std::uint8_t group) {
 /// One list a hair; empty where all stay.
 using KeptVertices = std::vector<std::vector<std::uint32_t>>;
 
-template <class T>
-void appendKept(std::vector<T>& to, const std::vector<T>& from, std::size_t first,
-                const std::vector<std::uint32_t>& kept) {
+template <class Values>
+void appendKept(Values& to, const Values& from, std::size_t first, const std::vector<std::uint32_t>& kept) {
     for (const std::uint32_t v : kept) to.push_back(from[first + v]);
 }
 

@@ -4,11 +4,13 @@
 #include "core/base/noise.h"
 #include "core/base/polynomials.h"
 #include "core/base/random.h"
+#include "core/hair/numbers.kernel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace whorl {
@@ -16,6 +18,12 @@ namespace {
 
 float finiteOr(float value, float otherwise) {
     return std::isfinite(value) ? value : otherwise;
+}
+
+glm::vec3 limitedTo(float most, const glm::vec3& numbers) {
+    glm::vec3 limited(0.0f);
+    for (int axis = 0; axis < 3; ++axis) limited[axis] = std::clamp(finiteOr(numbers[axis], 0.0f), 0.0f, most);
+    return limited;
 }
 
 float random(std::uint32_t seed, std::uint64_t index, HairChannel channel) {
@@ -47,23 +55,20 @@ glm::vec3 varied(const glm::vec3& colour, const SinCos& turn, float brightness) 
 
 }  // namespace
 
-float TraitLookup::Number::at(glm::vec2 uv) const {
-    const float product = map ? value * map->sample(uv) : value;
-    return std::clamp(finiteOr(product, 0.0f), most < 0.0f ? most : 0.0f, std::abs(most));
+float TraitLookup::Number::limited(float number) const {
+    return std::clamp(finiteOr(number, 0.0f), most < 0.0f ? most : 0.0f, std::abs(most));
 }
 
-glm::vec3 TraitLookup::Vector::at(glm::vec2 uv) const {
-    const glm::vec3 product = map ? value * map->sample(uv) : value;
-    glm::vec3 limited(0.0f);
-    for (int axis = 0; axis < 3; ++axis) limited[axis] = std::clamp(finiteOr(product[axis], 0.0f), 0.0f, 1e5f);
-    return limited;
+float TraitLookup::Number::mapped(glm::vec2 uv) const {
+    return limited(value * map->sample(uv));
 }
 
-glm::vec3 TraitLookup::Tint::at(glm::vec2 uv) const {
-    const glm::vec3 product = map ? value * map->sampleColour(uv) : value;
-    glm::vec3 limited(0.0f);
-    for (int axis = 0; axis < 3; ++axis) limited[axis] = std::clamp(finiteOr(product[axis], 0.0f), 0.0f, 1e6f);
-    return limited;
+glm::vec3 TraitLookup::Vector::mapped(glm::vec2 uv) const {
+    return limitedTo(1e5f, value * map->sample(uv));
+}
+
+glm::vec3 TraitLookup::Tint::mapped(glm::vec2 uv) const {
+    return limitedTo(1e6f, value * map->sampleColour(uv));
 }
 
 TraitLookup::TraitLookup(const Groom& groom, float time)
@@ -76,9 +81,13 @@ TraitLookup::TraitLookup(const Groom& groom, float time)
         return found && !found->empty() ? found : nullptr;
     };
     // A limit below zero stands for a range on both sides of zero.
-    const auto number = [&](const Driven& d, float most) { return Number{d.value, map(d.map), most}; };
-    const auto vector = [&](const DrivenVector& d) { return Vector{d.value, map(d.map)}; };
-    const auto tint = [&](const DrivenColour& d) { return Tint{d.value, map(d.map)}; };
+    const auto number = [&](const Driven& d, float most) {
+        Number n{d.value, map(d.map), most};
+        n.even = n.limited(n.value);
+        return n;
+    };
+    const auto vector = [&](const DrivenVector& d) { return Vector{d.value, map(d.map), limitedTo(1e5f, d.value)}; };
+    const auto tint = [&](const DrivenColour& d) { return Tint{d.value, map(d.map), limitedTo(1e6f, d.value)}; };
     for (const Group& group : *groom.groups) {
         const HairParams& p = group.params;
         Entry e;
@@ -119,16 +128,55 @@ TraitLookup::TraitLookup(const Groom& groom, float time)
 }
 
 HairTraits TraitLookup::at(const HairRoot& root) const {
+    HairTraits traits{};
+    FrizzPlace place = begin(root, traits);
+    if (place.wanted) {
+        perlinVector(place.at.x, place.at.y, place.at.z, traits.frizz);
+        endFrizz(root, place, traits);
+    }
+    return traits;
+}
+
+void TraitLookup::at(std::span<const HairRoot> roots, std::span<HairTraits> traits) const {
+    constexpr std::size_t most = 64;
+    std::array<FrizzPlace, most> frizz;
+    std::array<std::uint8_t, most> which;
+    float places[3][most], noise[3][most];
+    for (std::size_t first = 0; first < roots.size(); first += most) {
+        const std::size_t end = std::min(first + most, roots.size());
+        std::size_t count = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const FrizzPlace place = begin(roots[i], traits[i]);
+            if (!place.wanted) continue;
+            frizz[count] = place;
+            which[count] = static_cast<std::uint8_t>(i - first);
+            for (int axis = 0; axis < 3; ++axis) places[axis][count] = place.at[axis];
+            ++count;
+        }
+        const float* const in[3] = {places[0], places[1], places[2]};
+        float* const out[3] = {noise[0], noise[1], noise[2]};
+        WHORL_PICK(noiseVectors)(in, count, out);
+        for (std::size_t n = 0; n < count; ++n) {
+            HairTraits& t = traits[first + which[n]];
+            for (int axis = 0; axis < 3; ++axis) t.frizz[axis] = noise[axis][n];
+            endFrizz(roots[first + which[n]], frizz[n], t);
+        }
+    }
+}
+
+// All but what frizz takes from noise.
+TraitLookup::FrizzPlace TraitLookup::begin(const HairRoot& root, HairTraits& t) const {
     const Entry& e = m_groups[root.group];
-    HairTraits t{};
+    t = HairTraits{};
     t.cut = e.cut.at(root.uv);
-    t.scale = e.scale.at(root.uv) * (1.0f - e.randomScale.at(root.uv) * random(m_seed, root.id, HairChannel::Scale));
+    t.scale = e.scale.at(root.uv);
+    if (const float spoilt = e.randomScale.at(root.uv); spoilt > 0.0f)
+        t.scale *= 1.0f - spoilt * random(m_seed, root.id, HairChannel::Scale);
     t.displacement = e.displacement.at(root.uv);
     t.rootWidth = e.rootThickness.at(root.uv);
     t.thickness = t.rootWidth;
     t.tipWidth = e.tipThickness.at(root.uv);
     setColours(e, root, t);
-    setFrizz(e, root, t);
     t.kinkRoot = e.kinkRoot.at(root.uv);
     t.kinkTip = e.kinkTip.at(root.uv);
     if (t.kinkRoot > 0.0f || t.kinkTip > 0.0f) {
@@ -136,7 +184,7 @@ HairTraits TraitLookup::at(const HairRoot& root) const {
         for (int axis = 0; axis < 3; ++axis) t.kinkFrequency[axis] = frequency[axis];
     }
     if (e.strands) setStrand(e, root, t);
-    return t;
+    return frizzPlace(e, root, t);
 }
 
 HairTraits TraitLookup::lockAt(const HairRoot& root) const {
@@ -157,7 +205,8 @@ void TraitLookup::setStrand(const Entry& entry, const HairRoot& root, HairTraits
 
 void TraitLookup::setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
     glm::vec3 first = entry.rootColour.at(root.uv), last = entry.tipColour.at(root.uv);
-    if (random(m_seed, root.id, HairChannel::Mutant) < entry.mutants.at(root.uv)) first = last = entry.mutant;
+    const float mutants = entry.mutants.at(root.uv);
+    if (mutants > 0.0f && random(m_seed, root.id, HairChannel::Mutant) < mutants) first = last = entry.mutant;
     const float hue = entry.hueVariation.at(root.uv), value = entry.valueVariation.at(root.uv);
     if (hue > 0.0f || value > 0.0f) {
         const SinCos turn = sinCos(double{hue * spread(m_seed, root.id, HairChannel::Hue)});
@@ -173,23 +222,29 @@ void TraitLookup::setColours(const Entry& entry, const HairRoot& root, HairTrait
     traits.tipColour[3] = entry.tipOpacity.at(root.uv);
 }
 
-void TraitLookup::setFrizz(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
+TraitLookup::FrizzPlace TraitLookup::frizzPlace(const Entry& entry, const HairRoot& root, HairTraits& traits) const {
+    FrizzPlace place;
     traits.frizzRoot = entry.frizzRoot.at(root.uv);
     traits.frizzTip = entry.frizzTip.at(root.uv);
-    if (traits.frizzRoot <= 0.0f && traits.frizzTip <= 0.0f) return;
+    if (traits.frizzRoot <= 0.0f && traits.frizzTip <= 0.0f) return place;
     const glm::vec3 frequency = entry.frizzFrequency.at(root.uv);
-    const glm::vec3 place = root.position * frequency + m_frizzOffset;
-    perlinVector(place.x, place.y, place.z, traits.frizz);
+    place.wanted = true;
+    place.at = root.position * frequency + m_frizzOffset;
     // Waves of a millimetre and less are shorter than the distance between roots. There the noise only picks a number
     // at random for each hair, and a poorly spread one; the hair's own random vector takes over.
     const float highest = std::max({frequency.x, frequency.y, frequency.z});
-    const float own = smoothStep((highest - 500.0f) / 1500.0f);
-    if (own > 0.0f) {
+    place.own = smoothStep((highest - 500.0f) / 1500.0f);
+    return place;
+}
+
+// What becomes of the noise.
+void TraitLookup::endFrizz(const HairRoot& root, const FrizzPlace& place, HairTraits& traits) const {
+    if (place.own > 0.0f) {
         const HairChannel channels[3] = {HairChannel::FrizzX, HairChannel::FrizzY, HairChannel::FrizzZ};
         for (int i = 0; i < 3; ++i)
-            traits.frizz[i] += own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
+            traits.frizz[i] += place.own * (0.57735f * spread(m_seed, root.id, channels[i]) - traits.frizz[i]);
     }
-    if (m_time != 0.0f) animateFrizz(entry, root, place, own, traits);
+    if (m_time != 0.0f) animateFrizz(m_groups[root.group], root, place.at, place.own, traits);
 }
 
 // Adds what the noise has changed by since time 0, as seen by a place that moves through it.
@@ -218,7 +273,8 @@ void widen(HairTraits& traits, float lod) {
 
 CutEnd cutEnd(float cut, int segments) {
     if (!(cut > 0.0f) || segments < 1) return {};
-    const float parameter = std::min(cut, 1.0f) * static_cast<float>(segments);
+    if (cut >= 1.0f) return {static_cast<std::uint32_t>(segments) + 1, static_cast<float>(segments)};
+    const float parameter = cut * static_cast<float>(segments);
     const float whole = std::floor(parameter);
     const auto kept = static_cast<std::uint32_t>(whole) + 1;
     // A last piece shorter than this share of a segment would only make a lump.

@@ -7,6 +7,8 @@
 #include "core/model/groom.h"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace whorl {
 
@@ -35,6 +37,8 @@ public:
 
     /// Every number is finite and inside its parameter's range, whatever the maps hold.
     HairTraits at(const HairRoot& root) const;
+    /// The same for many roots.
+    void at(std::span<const HairRoot> roots, std::span<HairTraits> traits) const;
     /// Those of the middle of a lock: scale and displacement without anything random, nothing else.
     HairTraits lockAt(const HairRoot& root) const;
     /// Where kink noise starts: depends on the seed only.
@@ -45,17 +49,24 @@ private:
         float value = 0.0f;
         const Map* map = nullptr;
         float most = 1.0f;
-        float at(glm::vec2 uv) const;
+        float even = 0.0f;  ///< what it is without a map
+        float limited(float number) const;
+        float mapped(glm::vec2 uv) const;
+        float at(glm::vec2 uv) const { return map ? mapped(uv) : even; }
     };
     struct Vector {
         glm::vec3 value{0.0f};
         const Map* map = nullptr;
-        glm::vec3 at(glm::vec2 uv) const;
+        glm::vec3 even{0.0f};
+        glm::vec3 mapped(glm::vec2 uv) const;
+        glm::vec3 at(glm::vec2 uv) const { return map ? mapped(uv) : even; }
     };
     struct Tint {
         glm::vec3 value{0.0f};
         const Map* map = nullptr;
-        glm::vec3 at(glm::vec2 uv) const;
+        glm::vec3 even{0.0f};
+        glm::vec3 mapped(glm::vec2 uv) const;
+        glm::vec3 at(glm::vec2 uv) const { return map ? mapped(uv) : even; }
     };
     struct Entry {
         Number cut, scale, randomScale, rootThickness, tipThickness, displacement;
@@ -70,7 +81,15 @@ private:
         Number splay[3], twist, offset, aspect, randomise;
     };
     void setColours(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
-    void setFrizz(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
+    /// Where frizz takes its noise from.
+    struct FrizzPlace {
+        bool wanted = false;
+        float own = 0.0f;  ///< share of the hair's own random vector
+        glm::vec3 at{0.0f};
+    };
+    FrizzPlace begin(const HairRoot& root, HairTraits& traits) const;
+    FrizzPlace frizzPlace(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
+    void endFrizz(const HairRoot& root, const FrizzPlace& place, HairTraits& traits) const;
     void animateFrizz(const Entry& entry, const HairRoot& root, const glm::vec3& place, float own,
                       HairTraits& traits) const;
     void setStrand(const Entry& entry, const HairRoot& root, HairTraits& traits) const;

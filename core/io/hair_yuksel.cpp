@@ -94,7 +94,7 @@ private:
     }
 
     template <class T>
-    static Result<void> write(std::optional<SpillFile>& array, const std::vector<T>& values) {
+    static Result<void> write(std::optional<SpillFile>& array, const T& values) {
         return array->write(values.data(), values.size() * sizeof(T));
     }
 

@@ -54,8 +54,8 @@ public:
     void upload(std::span<const T> data) {
         upload(data.data(), data.size_bytes());
     }
-    template <class T>
-    void upload(const std::vector<T>& data) {
+    template <class T, class Memory>
+    void upload(const std::vector<T, Memory>& data) {
         upload(data.data(), data.size() * sizeof(T));
     }
     /// Room for at least `bytes`; the content is undefined afterwards when it grew.

@@ -4,7 +4,7 @@
 #include "core/base/noise.h"
 #include "core/base/parallel.h"
 #include "core/base/polynomials.h"
-#include "core/hair/shape.kernel.h"
+#include "core/hair/shaper.h"
 #include "core/model/modifiers/rows.h"
 #include "core/surface/surface_point.h"
 
@@ -72,33 +72,31 @@ void shapeCentres(ClumpCentres& centres, const Groom& groom, const ModifierChain
     const ModifierStep& step = chain.stepOf(clump);
     float offset[3];
     chain.noiseOffset(step, offset);
+    const bool turned = (*groom.groups)[clump.group].params.general.interpolation.index == 0;
+    const ShapeSpace space{turned, centres.stride, along.data(), ease.data(), glm::vec3(0.0f)};
     parallelFor(which.size(), 64, [&](std::size_t begin, std::size_t end) {
+        Shaper shaper;
+        std::vector<float> made(3 * Shaper::lanes * centres.stride);
+        float* axes[3] = {made.data(), &made[Shaper::lanes * centres.stride],
+                          &made[2 * Shaper::lanes * centres.stride]};
+        for (std::size_t first = begin; first < end; first += Shaper::lanes) {
+            const std::size_t count = std::min(Shaper::lanes, end - first);
+            for (std::size_t l = 0; l < Shaper::lanes; ++l) {
+                const HairRoot& root = centres.roots[which[first + std::min(l, count - 1)]];
+                shaper.set(l, root, lookup.lockAt(root));
+            }
+            shaper.shape(space, shapes, centres.bindings, &which[first], count, axes[0], axes[1], axes[2]);
+            for (std::size_t l = 0; l < count; ++l) {
+                const std::size_t at = which[first + l] * centres.stride, from = l * centres.stride;
+                std::copy_n(axes[0] + from, centres.stride, &centres.x[at]);
+                std::copy_n(axes[1] + from, centres.stride, &centres.y[at]);
+                std::copy_n(axes[2] + from, centres.stride, &centres.z[at]);
+            }
+        }
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t centre = which[i];
             const HairRoot& root = centres.roots[centre];
-            const HairTraits traits = lookup.lockAt(root);
-            const glm::vec3 start = root.position + root.normal * traits.displacement;
-            const std::uint32_t zero = 0;
-            const std::size_t places = centres.bindings.perHair, at = centre * centres.stride;
-            const ShapeArrays arrays{shapes.x.data(),
-                                     shapes.y.data(),
-                                     shapes.z.data(),
-                                     shapes.first.data(),
-                                     places,
-                                     &centres.bindings.counts[centre],
-                                     centres.bindings.guides.data() + centre * places,
-                                     centres.bindings.matrices.data() + centre * places * 9,
-                                     &traits,
-                                     &zero,
-                                     &start.x,
-                                     centres.stride,
-                                     along.data(),
-                                     ease.data(),
-                                     {0.0f, 0.0f, 0.0f},
-                                     &centres.x[at],
-                                     &centres.y[at],
-                                     &centres.z[at]};
-            WHORL_PICK(shapeHairs)(arrays, 0, 1);
+            const std::size_t at = centre * centres.stride;
             const float amplitude = step.numbers[ClumpRows::NoiseAmplitude].at(root.uv),
                         frequency = step.numbers[ClumpRows::NoiseFrequency].at(root.uv);
             if (!(amplitude > 0.0f)) continue;

@@ -58,16 +58,24 @@ std::size_t rowOfShared(std::size_t kind) {
     return 0;
 }
 
+std::uint32_t randomRowsOf(std::size_t kind) {
+    const std::uint32_t rows[modifierKindCount] = {1, ModifierArrays::randomRows, 3, 0, 1, 0, 0, 0};
+    return rows[kind];
+}
+
 ModifierStep stepFor(const Groom& groom, Modifier modifier) {
     ModifierStep step;
     step.kind = modifier.kind();
     for (const ParamRef& ref : paramsOf(modifier)) {
         std::visit([&](auto* target) { MadeNumbers{groom, step.numbers, ref.info}(target); }, ref.target);
     }
+    step.randomRows = randomRowsOf(step.kind);
     const std::size_t seed = rowOfSeed(step.kind), shared = rowOfShared(step.kind);
     const std::uint32_t own = seed > 0 ? static_cast<std::uint32_t>(step.numbers[seed].value) : 0;
     step.seed = static_cast<std::uint32_t>(step.kind) + static_cast<std::uint32_t>(modifierKindCount) * own;
     step.shared = shared > 0 && step.numbers[shared].value > 0.0f;
+    for (ModifierNumber& number : step.numbers)
+        if (!number.map) number.value = number.at({});
     return step;
 }
 
@@ -104,9 +112,16 @@ void ModifierChain::noiseOffset(const ModifierStep& step, float* offset) const {
 }
 
 void ModifierChain::random(const ModifierStep& step, std::uint64_t key, float* out) const {
-    const std::uint32_t seed = m_seed ^ static_cast<std::uint32_t>(mix64(step.seed + 1));
     for (std::uint32_t row = 0; row < ModifierArrays::randomRows; ++row)
-        out[row] = randomFloat(seed, key, firstChannel + row);
+        out[row] = randomFloat(randomSeed(step), key, channelOf(row));
+}
+
+std::uint32_t ModifierChain::randomSeed(const ModifierStep& step) const {
+    return m_seed ^ static_cast<std::uint32_t>(mix64(step.seed + 1));
+}
+
+std::uint32_t ModifierChain::channelOf(std::uint32_t row) {
+    return firstChannel + row;
 }
 
 ModifierKernel modifierKernel(std::size_t kind) {
@@ -114,6 +129,14 @@ ModifierKernel modifierKernel(std::size_t kind) {
         WHORL_PICK(clumpHairs),  WHORL_PICK(curlHairs),   WHORL_PICK(noiseHairs),      WHORL_PICK(bendHairs),
         WHORL_PICK(lengthHairs), WHORL_PICK(smoothHairs), WHORL_PICK(straightenHairs), nullptr};
     return kernels[kind];
+}
+
+bool looksAreEven(const ModifierChain& chain, std::size_t group) {
+    const std::span<const ModifierStep> looks = chain.looks(group);
+    return !looks.empty() && std::all_of(looks.begin(), looks.end(), [](const ModifierStep& step) {
+        return std::all_of(step.numbers.begin(), step.numbers.end(),
+                           [](const ModifierNumber& number) { return number.map == nullptr; });
+    });
 }
 
 void lookNumbers(const ModifierChain& chain, std::size_t group, glm::vec2 uv, std::vector<float>& out) {

@@ -15,7 +15,7 @@ namespace whorl {
 
 /// One number of a modifier: value x map, finite and inside the range of its parameter, whatever the map holds.
 struct ModifierNumber {
-    float value = 0.0f;
+    float value = 0.0f;  ///< without a map finite and inside the range already
     const Map* map = nullptr;
     float least = 0.0f;
     float most = 1.0f;
@@ -40,6 +40,7 @@ struct ModifierStep {
     std::uint32_t seed = 0;  ///< of the modifier and its kind; several of a kind with one seed draw the same numbers
     bool shared = false;     ///< what is random is a lock's and not a hair's
     std::size_t clump = 0;   ///< place in ModifierChain::clumps, for a clump
+    std::uint32_t randomRows = 0;  ///< that its kernel reads
     /// In declared order, "on" and the amount first; vectors take three, choices and switches are numbers too.
     std::vector<ModifierNumber> numbers;
 };
@@ -66,6 +67,9 @@ public:
     void noiseOffset(const ModifierStep& step, float* offset) const;
     /// Random numbers of a step for a hair or a lock, ModifierArrays::randomRows of them, 0 to 1.
     void random(const ModifierStep& step, std::uint64_t key, float* out) const;
+    /// The same for many keys: randomFloat(randomSeed(step), key, channelOf(row)).
+    std::uint32_t randomSeed(const ModifierStep& step) const;
+    static std::uint32_t channelOf(std::uint32_t row);
     /// Keys of hairs and of locks. A lock's is that of its centre, however the list is ordered.
     static std::uint64_t hairKey(std::uint32_t id) { return id; }
     static std::uint64_t lockKey(std::uint32_t centre) { return (std::uint64_t{1} << 40) | centre; }
@@ -86,6 +90,8 @@ ModifierKernel modifierKernel(std::size_t kind);
 
 /// Width that looks with these numbers give at curve parameter `along`, compared with none.
 float taperAt(std::span<const float> numbers, float along);
+/// True when a group has looks and no map changes them.
+bool looksAreEven(const ModifierChain& chain, std::size_t group);
 /// Numbers of all looks of a group at a place, TaperRows::count each. Empty without looks.
 void lookNumbers(const ModifierChain& chain, std::size_t group, glm::vec2 uv, std::vector<float>& out);
 

@@ -65,7 +65,7 @@ Strands grownFrom(const Groom& groom, const std::vector<HairRoot>& roots) {
     const TraitLookup lookup(groom);
     const GuideShapes shapes(groom);
     const Bindings bindings = bindHairs(groom, GuideIndex(groom), roots, progress);
-    const std::vector<HairTraits> traits = makeTraits(lookup, roots, progress);
+    const TraitList traits = makeTraits(lookup, roots, progress);
     const ModifierChain chain(groom);
     const ClumpSet clumps;
     const CentresOfHairs centres;
