@@ -2,9 +2,11 @@
 #include "core/hair/strands.h"
 
 #include "core/base/parallel.h"
+#include "core/hair/boxes.kernel.h"
 #include "core/hair/curve.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace whorl {
 namespace {
@@ -17,6 +19,19 @@ std::size_t bytesOf(const Values& values) {
 template <class Values>
 void appendTo(Values& values, const Values& more) {
     values.insert(values.end(), more.begin(), more.end());
+}
+
+// True when the curves of a box with their widths stay inside `bounds`: between vertices of a curve the width reaches
+// at most a sixth farther than at the widest.
+bool insideOf(const Bounds& bounds, const HairBoxes& box) {
+    const float reach = box.widest * (7.0f / 12.0f);
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = box.outerLow[axis] - reach, high = box.outerHigh[axis] + reach;
+        const float room = std::max(std::abs(low), std::abs(high)) * 3e-6f;
+        inside = inside && low - room > bounds.min[axis] && high + room < bounds.max[axis];
+    }
+    return inside;
 }
 
 }  // namespace
@@ -74,18 +89,37 @@ void Strands::resize(std::size_t hairs, std::size_t vertices) {
 }
 
 Bounds Strands::bounds() const {
-    constexpr std::size_t grain = 4096;
-    std::vector<Bounds> blocks((count() + grain - 1) / grain);
-    parallelFor(count(), grain, [&](std::size_t begin, std::size_t end) {
-        Bounds& block = blocks[begin / grain];
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t first = firstVertex[i], vertices = firstVertex[i + 1] - first;
-            addStrandBounds({&positions[first], vertices}, {&widths[first], vertices}, block);
+    constexpr std::size_t together = 64, grain = 16;
+    const std::size_t blocks = (count() + together - 1) / together;
+    std::vector<HairBoxes> boxes(blocks);
+    const auto hairsOf = [&](std::size_t block) { return std::min(together, count() - block * together); };
+    parallelFor(blocks, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            const BoxArrays arrays{&firstVertex[block * together], hairsOf(block), &positions.data()->x, widths.data()};
+            WHORL_PICK(boxesOfHairs)(arrays, boxes[block]);
         }
     });
+    // All vertices are in the box. Hairs that can not reach out of theirs need no closer look.
     Bounds all;
-    for (const Bounds& block : blocks)
-        if (!block.empty()) all.add(block);
+    for (const HairBoxes& box : boxes) {
+        if (!(box.low[0] <= box.high[0])) continue;
+        all.add({box.low[0], box.low[1], box.low[2]});
+        all.add({box.high[0], box.high[1], box.high[2]});
+    }
+    const Bounds vertices = all;
+    std::vector<Bounds> reaching(blocks);
+    parallelFor(blocks, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            if (insideOf(vertices, boxes[block])) continue;
+            Bounds& bounds = reaching[block] = vertices;
+            for (std::size_t i = block * together; i < block * together + hairsOf(block); ++i) {
+                const std::size_t first = firstVertex[i], each = firstVertex[i + 1] - first;
+                addStrandBounds({&positions[first], each}, {&widths[first], each}, bounds);
+            }
+        }
+    });
+    for (const Bounds& bounds : reaching)
+        if (!bounds.empty()) all.add(bounds);
     return all;
 }
 

@@ -106,8 +106,8 @@ public:
     bool full() const { return m_hairs == m_hair.hairs && m_vertices == m_hair.vertices; }
 
 private:
-    template <class To, class From>
-    static void copy(To* to, const std::vector<From>& from, std::uint64_t at, std::size_t each) {
+    template <class To, class From, class Memory>
+    static void copy(To* to, const std::vector<From, Memory>& from, std::uint64_t at, std::size_t each) {
         static_assert(sizeof(From) % sizeof(To) == 0);
         if (to && !from.empty()) std::memcpy(to + at * each, from.data(), from.size() * sizeof(From));
     }

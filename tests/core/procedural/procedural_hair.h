@@ -74,8 +74,8 @@ struct Filled {
 
     bool equals(const Strands& strands) const {
         std::size_t at = 0;
-        if (ids != strands.ids || members != strands.members || groups != strands.groups || widths != strands.widths ||
-            counts.size() != strands.count())
+        if (ids != strands.ids || members != strands.members || groups != strands.groups ||
+            !std::ranges::equal(widths, strands.widths) || counts.size() != strands.count())
             return false;
         for (std::size_t i = 0; i < ids.size(); at += counts[i++])
             if (counts[i] != strands.firstVertex[i + 1] - strands.firstVertex[i] ||
