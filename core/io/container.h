@@ -45,8 +45,8 @@ public:
     /// The bytes must outlive `finish`.
     Blob add(std::span<const std::uint8_t> bytes);
     Blob addOwned(std::vector<std::uint8_t> bytes);
-    template <class T>
-    Blob addArray(const std::vector<T>& values) {
+    template <class T, class Memory>
+    Blob addArray(const std::vector<T, Memory>& values) {
         return add({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)});
     }
 
