@@ -93,8 +93,8 @@ private:
         return {&m_segments, &m_positions, &m_thickness, &m_transparency, &m_colours};
     }
 
-    template <class T>
-    static Result<void> write(std::optional<SpillFile>& array, const T& values) {
+    template <class T, class Memory>
+    static Result<void> write(std::optional<SpillFile>& array, const std::vector<T, Memory>& values) {
         return array->write(values.data(), values.size() * sizeof(T));
     }
 
