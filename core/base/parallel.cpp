@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -48,10 +49,14 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
         return;
     }
     Order order;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-        order.blockBegins();
-        body(block * grain, std::min(count, (block + 1) * grain));
-        order.blockEnds();
+    // Alone with itself: a host that runs on TBB as well may hold a lock around this call, and its own work, taken up
+    // while this loop waits for its last block, would wait for that lock for ever.
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+            order.blockBegins();
+            body(block * grain, std::min(count, (block + 1) * grain));
+            order.blockEnds();
+        });
     });
     order.allEnded();
 }

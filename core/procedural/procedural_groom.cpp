@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/procedural/procedural_groom.h"
 
+#include "core/base/parallel.h"
+#include "core/hair/changes.h"
 #include "core/io/document.h"
 #include "core/io/json_text.h"
 #include "core/io/package_files.h"
@@ -9,6 +11,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+using namespace whorl;
+
+Result<const PreparedGroom*> WhorlGroom::prepared() const {
+    const std::lock_guard lock(m_mutex);
+    if (!m_prepared) {
+        Progress silent;
+        auto made = PreparedGroom::make(groom, silent);
+        // Too little memory may pass: the next call tries again.
+        if (!made) return made.error();
+        m_prepared = std::move(*made);
+    }
+    return m_prepared.get();
+}
 
 namespace whorl::procedural {
 namespace {
@@ -61,14 +78,12 @@ Result<std::unique_ptr<WhorlGroom>> prepare(Package package, std::string_view ov
     opened->partCount = package.parts.empty() || partsNow != partsBefore
                             ? static_cast<std::uint32_t>(std::clamp(partsNow, 1, static_cast<int>(maxPackageParts)))
                             : static_cast<std::uint32_t>(package.parts.size());
-    Progress silent;
-    auto prepared = PreparedGroom::make(package.groom, silent);
-    if (!prepared) return prepared.error();
-    opened->prepared = std::move(*prepared);
     if (overrides.empty()) opened->parts = std::move(package.parts);
     opened->frames = package.frames;
     opened->warnings = std::move(package.problems);
-    opened->meanWidth = meanWidthOf(opened->groom());
+    opened->groom = std::move(package.groom);
+    opened->animated = isAnimated(opened->groom);
+    opened->meanWidth = meanWidthOf(opened->groom);
     return opened;
 }
 
@@ -97,6 +112,28 @@ Result<std::unique_ptr<WhorlGroom>> openGroom(std::span<const std::uint8_t> docu
     package.groom = std::move(opened->groom);
     package.problems = std::move(opened->problems);
     return prepare(std::move(package), overrides, fault);
+}
+
+Result<void> streamHair(const WhorlGroom& groom, const Wish& wish,
+                        const std::function<bool(std::span<const Strands* const>)>& sink) {
+    const auto prepared = groom.prepared();
+    if (!prepared) return prepared.error();
+    std::optional<OneThread> alone;
+    if (wish.oneThread) alone.emplace();
+    Progress silent;
+    return (*prepared)->streamMotion(wish.options, wish.times, wish.blockHairs, sink, silent);
+}
+
+Result<HairCount> countHair(const WhorlGroom& groom, const Wish& wish) {
+    const PackagePart* part = storedPart(groom, wish);
+    const bool still = wish.times.size() == 1 && wish.times[0] == 0.0f;
+    if (part && (still || !groom.animated)) return HairCount{part->hairs, part->vertices};
+    const auto prepared = groom.prepared();
+    if (!prepared) return prepared.error();
+    std::optional<OneThread> alone;
+    if (wish.oneThread) alone.emplace();
+    Progress silent;
+    return (*prepared)->count(wish.options, wish.times, silent);
 }
 
 Result<Wish> checkedWish(const WhorlGroom& groom, const WhorlRequest& request) {
@@ -132,7 +169,7 @@ const PackagePart* storedPart(const WhorlGroom& groom, const Wish& wish) {
 const Bounds* storedBounds(const WhorlGroom& groom, const Wish& wish, float time) {
     const PackagePart* part = storedPart(groom, wish);
     if (!part) return nullptr;
-    if (time == 0.0f || !groom.prepared->animated()) return &part->bounds;
+    if (time == 0.0f || !groom.animated) return &part->bounds;
     // The very time of a frame, as it was exported.
     const double near = std::round(double{time} * groom.frames.perSecond);
     if (!(near >= groom.frames.first && near <= groom.frames.last)) return nullptr;
@@ -152,19 +189,15 @@ Result<Bounds> boundsOf(const WhorlGroom& groom, const Wish& wish) {
         }
     }
     if (missing.empty()) return bounds;
-    Progress silent;
     // All at once: where vertices are skipped, which ones depends on all of the times.
-    const auto made = groom.prepared->streamMotion(
-        wish.options, wish.times, defaultBlockHairs,
-        [&](std::span<const Strands* const> samples) {
-            const Strands* last = nullptr;
-            for (const Strands* sample : samples) {
-                if (sample != last) bounds.add(sample->bounds());
-                last = sample;
-            }
-            return true;
-        },
-        silent);
+    const auto made = streamHair(groom, wish, [&](std::span<const Strands* const> samples) {
+        const Strands* last = nullptr;
+        for (const Strands* sample : samples) {
+            if (sample != last) bounds.add(sample->bounds());
+            last = sample;
+        }
+        return true;
+    });
     if (!made) return made.error();
     return bounds;
 }

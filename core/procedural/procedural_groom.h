@@ -6,15 +6,18 @@
 #include "core/io/package.h"
 #include "core/procedural/whorl_procedural.h"
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// Immutable once opened: any thread.
+/// What is seen from outside does not change once it is opened: any thread.
 struct WhorlGroom {
-    std::shared_ptr<const whorl::PreparedGroom> prepared;
+    whorl::Groom groom;
+    bool animated = false;
     /// Those of the package; none when their numbers do not hold (overrides) or were never made (documents).
     std::vector<whorl::PackagePart> parts;
     whorl::PackageFrames frames;
@@ -22,7 +25,13 @@ struct WhorlGroom {
     std::vector<std::string> warnings;
     float meanWidth = 0.0f;  ///< metres, of an average hair without its maps
 
-    const whorl::Groom& groom() const { return prepared->groom(); }
+    /// What all hair needs. Made when it is first asked for, in as many threads as there are; others wait. A stored box
+    /// or count needs none of it.
+    whorl::Result<const whorl::PreparedGroom*> prepared() const;
+
+private:
+    mutable std::mutex m_mutex;
+    mutable std::shared_ptr<const whorl::PreparedGroom> m_prepared;
 };
 
 namespace whorl::procedural {
@@ -48,6 +57,12 @@ Result<Wish> checkedWish(const WhorlGroom& groom, const WhorlRequest& request);
 /// What the package stores for the wish, or null.
 const Bounds* storedBounds(const WhorlGroom& groom, const Wish& wish, float time);
 const PackagePart* storedPart(const WhorlGroom& groom, const Wish& wish);
+
+/// Makes the hair of a wish; see PreparedGroom::streamMotion.
+Result<void> streamHair(const WhorlGroom& groom, const Wish& wish,
+                        const std::function<bool(std::span<const Strands* const>)>& sink);
+/// See whorl_count.
+Result<HairCount> countHair(const WhorlGroom& groom, const Wish& wish);
 
 /// See whorl_box.
 Result<Bounds> boundsOf(const WhorlGroom& groom, const Wish& wish);

@@ -106,7 +106,8 @@ __attribute__((visibility("default"))) void Subdivide2(RtContextHandle context, 
     });
 }
 
-/// Boxes when the shutter opens and when it closes. RIB with "SimpleBound" and a box from the package needs no call.
+/// Boxes when the shutter opens and when it closes. RIB with "SimpleBound" and a box from the package, as in groom.rib,
+/// needs no call, and does not depend on how a renderer declares this one.
 __attribute__((visibility("default"))) void Bound(RtInt n, const RtToken* tokens, const RtPointer* values,
                                                   RtBound* bounds) {
     const RiHost host = RiHost::find();

@@ -3,7 +3,6 @@
 #include "core/procedural/whorl_procedural.h"
 
 #include "core/base/hash.h"
-#include "core/base/parallel.h"
 #include "core/procedural/procedural_groom.h"
 
 #include <algorithm>
@@ -11,7 +10,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <optional>
 
 using namespace whorl;
 using namespace whorl::procedural;
@@ -55,8 +53,6 @@ WhorlStatus withWish(const WhorlGroom* groom, const WhorlRequest* request, Whorl
         if (!groom || !request) return refuse(error, WHORL_BAD_ARGUMENT, "The groom or the request is NULL.");
         const auto wish = checkedWish(*groom, *request);
         if (!wish) return refuse(error, WHORL_BAD_ARGUMENT, wish.error());
-        std::optional<OneThread> alone;
-        if (wish->oneThread) alone.emplace();
         return work(*wish);
     });
 }
@@ -190,19 +186,19 @@ uint32_t whorl_part_count(const WhorlGroom* groom) {
 }
 
 uint64_t whorl_hairs_asked(const WhorlGroom* groom) {
-    return groom ? static_cast<uint64_t>(std::max(groom->groom().counts->hairs, 0)) : 0;
+    return groom ? static_cast<uint64_t>(std::max(groom->groom.counts->hairs, 0)) : 0;
 }
 
 uint32_t whorl_group_count(const WhorlGroom* groom) {
-    return groom ? static_cast<uint32_t>(groom->groom().groups->size()) : 0;
+    return groom ? static_cast<uint32_t>(groom->groom.groups->size()) : 0;
 }
 
 const char* whorl_group_name(const WhorlGroom* groom, uint32_t group) {
-    return group < whorl_group_count(groom) ? (*groom->groom().groups)[group].name.c_str() : nullptr;
+    return group < whorl_group_count(groom) ? (*groom->groom.groups)[group].name.c_str() : nullptr;
 }
 
 int whorl_is_animated(const WhorlGroom* groom) {
-    return groom && groom->prepared->animated() ? 1 : 0;
+    return groom && groom->animated ? 1 : 0;
 }
 
 int whorl_frames(const WhorlGroom* groom, int32_t* first, int32_t* last, double* frames_per_second) {
@@ -247,19 +243,10 @@ WhorlStatus whorl_box(const WhorlGroom* groom, const WhorlRequest* request, floa
 WhorlStatus whorl_count(const WhorlGroom* groom, const WhorlRequest* request, uint64_t* hairs, uint64_t* vertices,
                         WhorlError* error) {
     return withWish(groom, request, error, [&](const Wish& wish) {
-        HairCount count;
-        const PackagePart* part = storedPart(*groom, wish);
-        const bool still = wish.times.size() == 1 && wish.times[0] == 0.0f;
-        if (part && (still || !groom->prepared->animated())) {
-            count = {part->hairs, part->vertices};
-        } else {
-            Progress silent;
-            const auto counted = groom->prepared->count(wish.options, wish.times, silent);
-            if (!counted) return refuse(error, WHORL_BAD_FILE, counted.error());
-            count = *counted;
-        }
-        if (hairs) *hairs = count.hairs;
-        if (vertices) *vertices = count.vertices;
+        const auto count = countHair(*groom, wish);
+        if (!count) return refuse(error, WHORL_BAD_FILE, count.error());
+        if (hairs) *hairs = count->hairs;
+        if (vertices) *vertices = count->vertices;
         return WHORL_OK;
     });
 }
@@ -269,11 +256,9 @@ WhorlStatus whorl_fill(const WhorlGroom* groom, const WhorlRequest* request, con
         if (!hair || hair->struct_size < sizeof(WhorlHair))
             return refuse(error, WHORL_BAD_ARGUMENT, "The hair to fill was not set up: begin with WHORL_HAIR_INIT.");
         Filler filler(*hair);
-        Progress silent;
         bool fits = true;
-        const auto made = groom->prepared->streamMotion(
-            wish.options, wish.times, wish.blockHairs,
-            [&](std::span<const Strands* const> samples) { return fits = filler.add(samples); }, silent);
+        const auto made = streamHair(
+            *groom, wish, [&](std::span<const Strands* const> samples) { return fits = filler.add(samples); });
         if (!fits || (made && !filler.full())) {
             return refuse(error, WHORL_BAD_SIZE,
                           "Arrays for " + std::to_string(hair->hairs) + " hairs of " + std::to_string(hair->vertices) +
@@ -288,10 +273,8 @@ WhorlStatus whorl_stream(const WhorlGroom* groom, const WhorlRequest* request, W
     return withWish(groom, request, error, [&](const Wish& wish) {
         if (!sink) return refuse(error, WHORL_BAD_ARGUMENT, "The callback is NULL.");
         Block block;
-        Progress silent;
-        const auto made = groom->prepared->streamMotion(
-            wish.options, wish.times, wish.blockHairs,
-            [&](std::span<const Strands* const> samples) { return sink(&block.of(samples), user) == 0; }, silent);
+        const auto made = streamHair(
+            *groom, wish, [&](std::span<const Strands* const> samples) { return sink(&block.of(samples), user) == 0; });
         return made ? WHORL_OK : refuse(error, WHORL_BAD_FILE, made.error());
     });
 }
@@ -300,14 +283,10 @@ WhorlStatus whorl_digest(const WhorlGroom* groom, const WhorlRequest* request, u
     return withWish(groom, request, error, [&](const Wish& wish) {
         if (!digest) return refuse(error, WHORL_BAD_ARGUMENT, "The place for the digest is NULL.");
         Hasher hasher;
-        Progress silent;
-        const auto made = groom->prepared->streamMotion(
-            wish.options, wish.times, wish.blockHairs,
-            [&](std::span<const Strands* const> samples) {
-                samples[0]->addTo(hasher);
-                return true;
-            },
-            silent);
+        const auto made = streamHair(*groom, wish, [&](std::span<const Strands* const> samples) {
+            samples[0]->addTo(hasher);
+            return true;
+        });
         if (!made) return refuse(error, WHORL_BAD_FILE, made.error());
         *digest = hasher.digest();
         return WHORL_OK;

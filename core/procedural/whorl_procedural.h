@@ -72,6 +72,8 @@ WHORL_API const char* whorl_version_text(void);
  *     {"counts/hairs": 200000, "groups/scalp/frizz/tip": 0.004, "groups/scalp/general/density/map": ""}
  *
  * What is not there or out of range is refused. All files are read now; they may be replaced or removed afterwards.
+ * What all hair needs (the skin it keeps outside of, where it grows) is made at the first call that makes hair, by all
+ * cores.
  */
 WHORL_API WhorlStatus whorl_open(const char* path, const char* overrides, WhorlGroom** groom, WhorlError* error);
 /* A document in memory: the bytes of a NAME.whorl file, which the editor hands over unsaved. Copied. */

@@ -3,6 +3,7 @@
 #include "core/io/hair_file.h"
 #include "core/io/open.h"
 #include "core/io/package.h"
+#include "core/param/param.h"
 #include "editor/cli/cli.h"
 
 #include <nlohmann/json.hpp>
@@ -31,7 +32,16 @@ Outcome hairFacts(const Options& options) {
 Outcome info(const Options& options) {
     const FileKind kind = fileKind(options.file);
     if (kind == FileKind::HairCurves) return hairFacts(options);
-    auto opened = openGroom(options.file, progress());
+    PackageFrames frames;
+    Result<OpenedDocument> opened = Error{};
+    if (kind == FileKind::Package) {
+        auto package = openPackage(options.file, progress());
+        if (!package) return badInput(package.error());
+        frames = package->frames;
+        opened = OpenedDocument{std::move(package->groom), std::move(package->problems)};
+    } else {
+        opened = openGroom(options.file, progress());
+    }
     if (!opened) return badInput(opened.error());
     const std::string name = kind == FileKind::Document ? "document" : kind == FileKind::Package ? "package" : "mesh";
     Problems problems = opened->problems;
@@ -40,6 +50,10 @@ Outcome info(const Options& options) {
     endProgress();
     if (options.json) return printed(groomFactsJson(opened->groom, problems, name) + "\n");
     std::string text = "kind: " + name + "\n" + groomFactsText(opened->groom);
+    if (!frames.empty()) {
+        text += "frames: " + std::to_string(frames.first) + " to " + std::to_string(frames.last) + ", " +
+                paramText(frames.perSecond) + " a second\n";
+    }
     for (const std::string& problem : problems) text += "problem: " + problem + "\n";
     return printed(text);
 }

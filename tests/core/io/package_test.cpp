@@ -262,6 +262,8 @@ private Q_SLOTS:
             return !opened.ok() && opened.error().message.find("bad.groom") != std::string::npos;
         };
         QVERIFY(!refused([] {}));
+        // Packages of earlier versions have no example.
+        QVERIFY(!refused([&] { fs::remove(bad / "groom.rib"); }));
         QVERIFY(!refused([&] { rewrite(bad, [](nlohmann::json&) {}); }));
         for (const char* name : {"groom.json", "shared.bin", "part-0000.bin", "part-0001.bin"}) {
             const std::string bytes = textOf(good / name);

@@ -275,8 +275,9 @@ private Q_SLOTS:
             QVERIFY(std::strlen(error.text) > 10);
             ++failed;
         }
-        QVERIFY2(failed > 15, std::to_string(failed).c_str());
-        const Filled whole = fill(groom, WHORL_REQUEST_INIT);
+        QVERIFY2(failed > 10, std::to_string(failed).c_str());
+        const Filled whole = fill(Opened(package), WHORL_REQUEST_INIT);
+        // The first call that makes hair also makes what all hair needs.
         failed = 0;
         for (const std::uint32_t flags : {WHORL_ONE_THREAD, 0u}) {
             WhorlRequest request = WHORL_REQUEST_INIT;
@@ -290,7 +291,7 @@ private Q_SLOTS:
                 ++failed;
             }
         }
-        QVERIFY2(failed > 10, std::to_string(failed).c_str());
+        QVERIFY2(failed > 15, std::to_string(failed).c_str());
         // Nothing is broken afterwards.
         QVERIFY(fill(groom, WHORL_REQUEST_INIT) == whole);
         whorl_close(groom);

@@ -5,6 +5,8 @@
 #include "tests/core/procedural/procedural_hair.h"
 #include "tests/support/shapes.h"
 
+#include <tbb/parallel_for.h>
+
 #include <QTest>
 #include <algorithm>
 #include <cstring>
@@ -139,6 +141,23 @@ private Q_SLOTS:
             QVERIFY(together[i].status == WHORL_OK && together[i].ids.size() > 20);
             QVERIFY(together[i] == alone[i]);
             QVERIFY(boxes[i] == boxesTogether[i]);
+        }
+    }
+
+    void aHostOnTheSameThreadPoolDoesNotHang() {
+        // Tasks of a host that all need the groom first: the one that makes it ready must not take up another of them
+        // while it waits for its own loops.
+        const fs::path package = exported(randomGroom(3), scratchFolder("procedural-pool") / "a.groom", 4);
+        for (int round = 0; round < 3; ++round) {
+            const Opened opened(package);
+            std::vector<std::uint64_t> digests(64, 0);
+            tbb::parallel_for(std::size_t{0}, digests.size(), [&](std::size_t i) {
+                WhorlRequest request = WHORL_REQUEST_INIT;
+                request.part = static_cast<std::uint32_t>(i % 4);
+                request.share = 0.2f;
+                whorl_digest(opened, &request, &digests[i], nullptr);
+            });
+            for (std::size_t i = 4; i < digests.size(); ++i) QCOMPARE(digests[i], digests[i % 4]);
         }
     }
 
