@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which way hair lies on the skin: a tangent direction everywhere, spread from strokes over the surface.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/model/parting.h"
+#include "core/surface/surface.h"
+
+#include <complex>
+#include <memory>
+#include <span>
+#include <vector>
+
+// Seed 002 (Mao et al., section 3): the artist gives growing area and parting, a default direction follows from
+// gravity, strokes set the direction where they pass, and the rest is interpolated. Here the interpolation is the
+// smoothest field of tangent vectors that follows the strokes and, away from them, leans on the default: one sparse
+// linear system over the vertices, where vectors are compared after turning them along with the skin (connection
+// Laplacian: Knoeppel et al., "Globally Optimal Direction Fields", 2013). Nothing is compared across a parting or
+// outside the growing area.
+
+namespace whorl {
+
+/// A line on the skin along which hair lies, from root to tip.
+struct FieldStroke {
+    std::vector<SurfacePoint> points;  ///< two or more
+    float weight = 1.0f;               ///< against other strokes and the default; above zero
+};
+
+struct FieldOptions {
+    /// Metres from a stroke over which its influence gives way to the default direction; 0: it never does where there
+    /// is a stroke at all.
+    float reach = 0.0f;
+    glm::vec3 gravity{0.0f, -1.0f, 0.0f};  ///< where default directions hang to; need not be unit
+    /// Metres around a parting within which the default leads away from it.
+    float partingWidth = 0.02f;
+};
+
+/// Where the field turns around a point: +1 a whorl or a star, -1 a saddle.
+struct FieldSingularity {
+    std::uint32_t triangle = 0;
+    int index = 0;
+};
+
+/// Directions at the vertices. Immutable; any thread may ask. Cheap to copy.
+class DirectionField {
+public:
+    DirectionField() = default;
+
+    bool empty() const { return m_state == nullptr; }
+    /// Unit tangent (perpendicular to the normal there) at each vertex; zero where no hair grows.
+    std::span<const glm::vec3> vertices() const;
+    /// Unit tangent at a place of the skin, from those of the triangle's vertices that no parting separates from it;
+    /// zero where no hair grows or directions cancel out.
+    glm::vec3 at(const SurfacePoint& point) const;
+    /// Triangles around which directions turn once or more, in order; none at partings.
+    std::vector<FieldSingularity> singularities() const;
+
+private:
+    friend class FieldSolver;
+    struct State;
+    std::shared_ptr<const State> m_state;
+};
+
+/// What mesh, growing area and partings alone decide, made once: neighbours, turns between them, the order of the
+/// factorisation. Any thread may solve; they take turns.
+class FieldSolver {
+public:
+    /// `grows`: one a triangle. Fails only when cancelled.
+    static Result<FieldSolver> make(std::shared_ptr<const Surface> surface, std::span<const std::uint8_t> grows,
+                                    std::span<const Parting> partings, Progress& progress);
+
+    /// The field that follows `strokes`, or the default direction where there are none. Points of strokes outside the
+    /// growing area have no effect. Fails only when cancelled.
+    Result<DirectionField> solve(std::span<const FieldStroke> strokes, const FieldOptions& options,
+                                 Progress& progress) const;
+    /// The default direction alone: downhill along `gravity`, and away from near partings. Not smoothed.
+    DirectionField defaults(const FieldOptions& options) const;
+
+private:
+    struct State;
+    std::shared_ptr<const State> m_state;
+};
+
+}  // namespace whorl
