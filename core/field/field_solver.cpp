@@ -19,7 +19,7 @@ using Factor = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 
 constexpr std::uint32_t none = UINT32_MAX;
 /// Weight of a stroke of one edge's length against a unit of smoothness: enough for a fraction of a degree.
-constexpr double strokeStrength = 100000.0;
+constexpr double strokeStrength = 20000.0;
 /// Holds the system definite where there is neither stroke nor default.
 constexpr double ground = 1e-9;
 

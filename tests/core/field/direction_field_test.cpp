@@ -288,9 +288,9 @@ private Q_SLOTS:
         std::vector<FieldStroke> strokes;
         for (int i = 0; i < 6; ++i) {
             std::vector<glm::vec3> places;
-            for (int k = 0; k <= 8; ++k) {
-                const float around = 1.047f * static_cast<float>(i) + 0.06f * static_cast<float>(k);
-                const float up = 1.25f - 0.08f * static_cast<float>(k);
+            for (int k = 0; k <= 32; ++k) {
+                const float around = 1.047f * static_cast<float>(i) + 0.015f * static_cast<float>(k);
+                const float up = 1.25f - 0.02f * static_cast<float>(k);
                 const glm::vec3 out(std::cos(up) * std::cos(around), std::sin(up), std::cos(up) * std::sin(around));
                 const glm::vec3 start = middle + out * glm::length(bounds.size());
                 if (const auto hit = scene.surface->query.raycast(start, -out)) places.push_back(hit->position);
