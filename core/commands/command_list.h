@@ -12,6 +12,7 @@ namespace whorl {
 
 void addFileCommands(std::vector<Command>& list);
 void addEditCommands(std::vector<Command>& list);
+void addFieldCommands(std::vector<Command>& list);
 void addGroupCommands(std::vector<Command>& list);
 void addModifierCommands(std::vector<Command>& list);
 void addPartingCommands(std::vector<Command>& list);
@@ -26,6 +27,9 @@ std::optional<Number> numberFrom(std::string_view text, Number low, Number high)
         return std::nullopt;
     return number;
 }
+
+/// "X,Y,Z", each from -1e6 to 1e6.
+std::optional<glm::vec3> pointFrom(std::string_view text);
 
 /// "on" or "off".
 std::optional<bool> switchFrom(std::string_view text);

@@ -13,19 +13,6 @@ using Arguments = std::span<const std::string>;
 
 constexpr const char* addUsage = "add-parting [NAME] X,Y,Z X,Y,Z...";
 
-std::optional<glm::vec3> pointFrom(std::string_view text) {
-    glm::vec3 point(0.0f);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t comma = text.find(',');
-        if ((comma == std::string_view::npos) != (axis == 2)) return std::nullopt;
-        const auto number = numberFrom<float>(text.substr(0, comma), -1e6f, 1e6f);
-        if (!number) return std::nullopt;
-        point[axis] = *number;
-        text.remove_prefix(std::min(text.size(), comma == std::string_view::npos ? text.size() : comma + 1));
-    }
-    return point;
-}
-
 Result<std::string> add(CommandContext& context, Arguments arguments, Progress&) {
     if (arguments.empty()) return usageError(addUsage);
     if (!context.hasGroom) return noGroomError();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of the direction field: tangent, smooth, true to strokes, and nothing crosses a parting or the border.
-#include "core/field/direction_field.h"
-
 #include "core/base/random.h"
+#include "core/field/grow_guides.h"
 #include "core/io/mesh_import.h"
 #include "core/surface/parting_line.h"
 #include "tests/support/shapes.h"
@@ -253,6 +252,46 @@ private Q_SLOTS:
         const glm::vec3 even = scene.solve({across(1), along(1)}).at(middle->point);
         QVERIFY(degreesBetween(even, {1, 0, 1}) < 5.0f);
         QVERIFY(scene.solve({across(50), along(0.02f)}).at(scene.surface->query.nearest({0, 0, 0})->point).x > 0.98f);
+    }
+
+    void guidesLieAlongTheField() {
+        Groom groom = testing::groomOn(testing::sphere(48, 64), 200, 12, 0.04f);
+        const Scene scene(*groom.mesh);
+        const std::vector<FieldStroke> strokes = randomStrokes(*scene.surface, 5, 4);
+        const DirectionField field = scene.solve(strokes);
+        const Groom before = groom;
+        Progress progress;
+        QVERIFY(growGuidesAlong(groom, *scene.surface, field, {.lift = 0.2f}, progress).ok());
+        double sum = 0.0;
+        int pieces = 0;
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            const auto points = groom.guides.points(i);
+            QCOMPARE(points.size(), before.guides.points(i).size());
+            QCOMPARE(points[0], before.guides.points(i)[0]);
+            for (std::size_t k = 1; k < points.size(); ++k) {
+                const float step = glm::distance(points[k - 1], points[k]);
+                QVERIFY(std::abs(step - 0.04f / 12.0f) < 1e-5f);
+                // A ball of flat triangles lies a little inside of the ball.
+                QVERIFY(glm::length(points[k]) > 0.0998f);
+                const auto skin = scene.surface->query.nearest((points[k - 1] + points[k]) * 0.5f);
+                const glm::vec3 normal = normalAt(scene.surface->mesh(), skin->point);
+                const glm::vec3 way = points[k] - points[k - 1];
+                sum += static_cast<double>(degreesBetween(way - normal * glm::dot(normal, way), field.at(skin->point)));
+                ++pieces;
+            }
+        }
+        QVERIFY2(sum / pieces < 5.0, qPrintable(QString::number(sum / pieces)));
+        // Another length, and straight up.
+        QVERIFY(growGuidesAlong(groom, *scene.surface, field, {.length = 0.01f, .lift = 0.0f}, progress).ok());
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            for (const glm::vec3& p : groom.guides.points(i)) QVERIFY(glm::length(p) < 0.1015f);
+        }
+        // Without directions nothing happens; cancelled neither.
+        const std::uint64_t digest = testing::groomDigest(groom);
+        QVERIFY(growGuidesAlong(groom, *scene.surface, DirectionField(), {}, progress).ok());
+        progress.cancel();
+        QVERIFY(!growGuidesAlong(groom, *scene.surface, field, {}, progress).ok());
+        QCOMPARE(testing::groomDigest(groom), digest);
     }
 
     void strangeInputIsTaken() {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Guides laid along a direction field: a combed coat from a few strokes.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/field/direction_field.h"
+#include "core/model/groom.h"
+
+namespace whorl {
+
+struct GrowAlong {
+    float length = 0.0f;  ///< metres; 0: every guide keeps the length that it has
+    /// How guides leave the skin: 0 flat along it, 1 straight up; they lie down towards their tips.
+    float lift = 0.25f;
+    int group = -1;           ///< guides of this group only; -1: of all
+    glm::vec3 gravity{0.0f};  ///< bends tips further: direction times strength, 1 a lot
+};
+
+/// Gives every guide of `groom` a new shape from its root: along `field` over the skin, outside of it, with segments of
+/// equal length. Guides where the field has no direction stay as they are. `surface` is that of the groom's mesh. Fails
+/// only when cancelled, with `groom` as it was.
+Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
+                             const GrowAlong& options, Progress& progress);
+
+}  // namespace whorl
