@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/hair/changes.h"
 #include "core/io/package.h"
 #include "editor/cli/cli.h"
 
@@ -43,6 +44,8 @@ Outcome exportGroom(const Options& options) {
     }
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
+    if (!frames.empty() && !isAnimated(*groom))
+        note(options.output + ": no hair moves with time (animated frizz), so the boxes of all frames are the same.");
     if (auto written = exportPackage(*groom, options.output, options.parts, progress(), nullptr, frames); !written) {
         return badInput(written.error());
     }
