@@ -70,6 +70,15 @@ glm::vec3 DirectionField::at(const SurfacePoint& point) const {
     return length > 1e-6f ? sum / length : glm::vec3(0.0f);
 }
 
+bool DirectionField::parted(const SurfacePoint& a, const SurfacePoint& b) const {
+    if (!m_state) return false;
+    const FieldDomain& domain = *m_state->domain;
+    if (domain.partings.empty() || (domain.nearParting[a.triangle] == 0 && domain.nearParting[b.triangle] == 0))
+        return false;
+    const SurfaceMesh& mesh = domain.mesh();
+    return domain.apart({positionAt(mesh, a), normalAt(mesh, a)}, {positionAt(mesh, b), normalAt(mesh, b)});
+}
+
 std::vector<FieldSingularity> DirectionField::singularities() const {
     std::vector<FieldSingularity> found;
     if (!m_state) return found;

@@ -53,6 +53,8 @@ public:
     /// Unit tangent at a place of the skin, from those of the triangle's vertices that no parting separates from it;
     /// zero where no hair grows or directions cancel out.
     glm::vec3 at(const SurfacePoint& point) const;
+    /// True when a parting lies between two places that are near each other.
+    bool parted(const SurfacePoint& a, const SurfacePoint& b) const;
     /// Triangles around which directions turn once or more, in order; none at partings.
     std::vector<FieldSingularity> singularities() const;
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws of line integral convolution on the skin, and of straight ways over triangles.
+#include "core/base/random.h"
+#include "core/lic/reference.h"
+#include "core/surface/parting_line.h"
+#include "tests/support/shapes.h"
+
+#include <glm/geometric.hpp>
+
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace whorl;
+
+namespace {
+
+std::shared_ptr<const Surface> surfaceOf(SurfaceMesh mesh) {
+    return std::make_shared<const Surface>(Cow<SurfaceMesh>(std::move(mesh)));
+}
+
+/// The field of strokes through the given places.
+LicReference combed(std::shared_ptr<const Surface> surface, const std::vector<std::vector<glm::vec3>>& lines,
+                    const std::vector<Parting>& partings = {}) {
+    Progress progress;
+    std::vector<FieldStroke> strokes;
+    for (const auto& line : lines) strokes.push_back({*tracedParting(*surface, line), 1.0f});
+    const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 1);
+    const auto solver = FieldSolver::make(surface, grows, partings, progress);
+    return LicReference(surface, *solver->solve(strokes, {}, progress));
+}
+
+SurfacePoint placeAt(const Surface& surface, const glm::vec3& position) {
+    return surface.query.nearest(position)->point;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto n = static_cast<double>(a.size());
+    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ma += a[i] / n;
+        mb += b[i] / n;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        aa += (a[i] - ma) * (a[i] - ma);
+        bb += (b[i] - mb) * (b[i] - mb);
+        ab += (a[i] - ma) * (b[i] - mb);
+    }
+    return ab / std::sqrt(aa * bb);
+}
+
+}  // namespace
+
+class LicReferenceTest : public QObject {
+    Q_OBJECT
+
+private Q_SLOTS:
+    void straightWaysStayStraight() {
+        const SurfaceMesh mesh = testing::plane(9);
+        const auto surface = surfaceOf(mesh);
+        const SurfaceWalk walk(mesh);
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const glm::vec3 from(randomFloat(1, i, 0) * 0.6f - 0.3f, 0, randomFloat(1, i, 1) * 0.6f - 0.3f);
+            const float angle = randomFloat(1, i, 2) * 6.2832f, way = randomFloat(1, i, 3) * 0.15f;
+            const glm::vec3 d(std::cos(angle), 0, std::sin(angle));
+            const SurfacePoint start = placeAt(*surface, from);
+            const SurfaceWalk::Step step = walk.go(mesh, start, d, way);
+            QVERIFY(glm::distance(positionAt(mesh, step.point), positionAt(mesh, start) + d * way) < 2e-6f);
+            QVERIFY(glm::distance(step.direction, d) < 1e-5f);
+            QVERIFY(std::abs(step.walked - way) < 1e-6f);
+        }
+        // Off the border there is no way.
+        const SurfaceWalk::Step off = walk.go(mesh, placeAt(*surface, {0.4f, 0, 0}), {1, 0, 0}, 1.0f);
+        QVERIFY(std::abs(off.walked - 0.1f) < 1e-4f);
+    }
+
+    void aroundABallAndBack() {
+        const SurfaceMesh mesh = testing::sphere(64, 96, 0.1f);
+        const auto surface = surfaceOf(mesh);
+        const SurfaceWalk walk(mesh);
+        const SurfacePoint start = placeAt(*surface, {0.07f, 0.03f, 0.064f});
+        const glm::vec3 from = positionAt(mesh, start);
+        const SurfaceWalk::Step there = walk.go(mesh, start, {0.3f, 0.8f, -0.2f}, 0.25f);
+        QVERIFY(std::abs(there.walked - 0.25f) < 1e-5f);
+        QVERIFY(glm::distance(positionAt(mesh, there.point), from) > 0.15f);
+        const SurfaceWalk::Step back = walk.go(mesh, there.point, -there.direction, 0.25f);
+        QVERIFY(glm::distance(positionAt(mesh, back.point), from) < 1e-5f);
+    }
+
+    void streamlinesComeBack() {
+        const auto surface = surfaceOf(testing::sphere(64, 96, 0.1f));
+        const LicReference lic = combed(surface, {{{0.1f, 0, 0}, {0.08f, 0.05f, 0.03f}, {0.05f, 0.08f, 0.02f}},
+                                                  {{-0.05f, 0.08f, 0.03f}, {-0.09f, 0.02f, 0.04f}}});
+        int whole = 0;
+        for (std::uint32_t i = 0; i < 40; ++i) {
+            const glm::vec3 out(randomFloat(2, i, 0) - 0.5f, randomFloat(2, i, 1) * 0.5f, randomFloat(2, i, 2) - 0.5f);
+            const SurfacePoint start = placeAt(*surface, glm::normalize(out) * 0.1f);
+            const auto line = lic.streamline(start, 0.02f, 0.0005f, false);
+            if (line.size() < 41) continue;
+            ++whole;
+            const auto back = lic.streamline(line.back().point, 0.02f, 0.0005f, true);
+            QVERIFY2(
+                back.size() == 41 && glm::distance(back.back().position, line.front().position) < 5e-5f,
+                qPrintable(QString("%1: %2").arg(i).arg(glm::distance(back.back().position, line.front().position))));
+        }
+        QVERIFY(whole > 30);
+    }
+
+    void evenAlongAndWhiteAcross() {
+        const auto surface = surfaceOf(testing::plane(10));
+        const LicReference lic = combed(surface, {{{-0.2f, 0, 0}, {0.2f, 0, 0}}});
+        LicOptions options;
+        options.grain = 0.005f;
+        options.length = 0.05f;
+        options.kernel = LicKernel::Box;
+        const auto value = [&](float x, float z) {
+            return static_cast<double>(*lic.at(placeAt(*surface, {x, 0, z}), options));
+        };
+        // Pairs a distance apart along and across.
+        for (const float share : {0.25f, 0.5f}) {
+            const float apart = share * 2.0f * options.length;
+            std::vector<double> a, along, across;
+            for (std::uint32_t i = 0; i < 1500; ++i) {
+                const float x = randomFloat(3, i, 0) * 0.7f - 0.4f, z = randomFloat(3, i, 1) * 0.8f - 0.4f;
+                a.push_back(value(x, z));
+                along.push_back(value(x + apart, z));
+                across.push_back(value(x, z + 1.5f * options.grain));
+            }
+            // A box over white noise: the correlation falls as a triangle does.
+            const double expected = 1.0 - static_cast<double>(share);
+            QVERIFY2(std::abs(correlation(a, along) - expected) < 0.08,
+                     qPrintable(QString("%1 for %2").arg(correlation(a, along)).arg(expected)));
+            QVERIFY2(std::abs(correlation(a, across)) < 0.08, qPrintable(QString::number(correlation(a, across))));
+        }
+    }
+
+    void theShareOfWhiteIsTheMean() {
+        const auto surface = surfaceOf(testing::plane(4));
+        const LicReference lic = combed(surface, {{{-0.2f, 0, 0}, {0.2f, 0, 0.1f}}});
+        for (const float white : {0.1f, 0.5f, 0.8f}) {
+            LicOptions options;
+            options.grain = 0.01f;
+            options.length = 0.03f;
+            options.white = white;
+            double sum = 0.0;
+            for (std::uint32_t i = 0; i < 800; ++i) {
+                const glm::vec3 p(randomFloat(4, i, 0) * 0.8f - 0.4f, 0, randomFloat(4, i, 1) * 0.8f - 0.4f);
+                sum += static_cast<double>(*lic.at(placeAt(*surface, p), options)) / 800.0;
+            }
+            QVERIFY2(std::abs(sum - static_cast<double>(white)) < 0.03, qPrintable(QString::number(sum)));
+        }
+    }
+
+    void noStreamlineCrossesAParting() {
+        const auto surface = surfaceOf(testing::plane(12));
+        const std::vector<glm::vec3> line{{0.013f, 0, -0.5f}, {-0.02f, 0, 0.0f}, {0.013f, 0, 0.5f}};
+        const std::vector<Parting> partings{{1, "", *tracedParting(*surface, line)}};
+        // Towards the parting from both sides.
+        const LicReference lic =
+            combed(surface, {{{-0.4f, 0, 0}, {-0.1f, 0, 0}}, {{0.4f, 0, 0}, {0.1f, 0, 0}}}, partings);
+        const auto sideOf = [&](const glm::vec3& p) {
+            const float at = -0.02f + 0.033f * std::abs(p.z) / 0.5f;
+            return p.x < at ? -1 : 1;
+        };
+        int stopped = 0;
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const glm::vec3 p(randomFloat(5, i, 0) * 0.4f - 0.2f, 0, randomFloat(5, i, 1) * 0.7f - 0.35f);
+            const auto places = lic.streamline(placeAt(*surface, p), 0.3f, 0.004f, false);
+            if (places.empty()) continue;
+            for (const auto& place : places) QCOMPARE(sideOf(place.position), sideOf(places.front().position));
+            stopped += places.size() < 75;
+        }
+        QVERIFY(stopped > 150);
+    }
+
+    void nothingWhereNoHairLies() {
+        const auto surface = surfaceOf(testing::plane(4));
+        Progress progress;
+        const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 0);
+        const auto solver = FieldSolver::make(surface, grows, {}, progress);
+        const LicReference lic(surface, *solver->solve({}, {}, progress));
+        QVERIFY(!lic.at({0, 0.2f, 0.2f}, {}));
+        QVERIFY(lic.streamline({0, 0.2f, 0.2f}, 0.1f, 0.01f, false).empty());
+    }
+};
+
+QTEST_GUILESS_MAIN(LicReferenceTest)
+#include "lic_reference_test.moc"
