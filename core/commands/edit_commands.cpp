@@ -146,6 +146,20 @@ Result<std::string> grow(CommandContext& context, Arguments arguments, Progress&
     return Error{"The mesh has no part \"" + arguments[0] + "\"; parts are " + names + "."};
 }
 
+Result<std::string> texture(CommandContext& context, Arguments arguments, Progress&) {
+    if (arguments.size() != 2) return usageError("texture PART MAP|none");
+    if (!context.hasGroom) return noGroomError();
+    const std::string map = arguments[1] == "none" ? std::string() : arguments[1];
+    if (!map.empty() && !context.groom.maps.find(map)) return Error{"There is no map \"" + map + "\"."};
+    const auto named = [&](const MeshPart& part) { return arguments[0] == "*" || part.name == arguments[0]; };
+    if (std::ranges::none_of(context.groom.mesh->parts, named))
+        return Error{"The mesh has no part \"" + arguments[0] + "\"; the command parts lists them."};
+    for (MeshPart& part : context.groom.mesh.edit().parts) {
+        if (named(part)) part.texture = map;
+    }
+    return std::string();
+}
+
 Result<std::string> parts(CommandContext& context, Arguments arguments, Progress&) {
     if (!arguments.empty()) return usageError("parts");
     if (!context.hasGroom) return noGroomError();
@@ -184,6 +198,8 @@ void addEditCommands(std::vector<Command>& list) {
                     [](CommandContext&, std::span<const std::string>, Progress&) -> Result<std::string> {
                         return parameterReference();
                     }});
+    list.push_back({"texture", "texture PART MAP|none",
+                    "Gives a part of the mesh (* for all) a colour map of the groom as its texture.", true, texture});
     list.push_back({"parts", "parts", "Lists the parts of the mesh and whether they grow hair.", false, parts});
 }
 

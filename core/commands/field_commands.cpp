@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/commands/command_list.h"
 #include "core/field/grow_guides.h"
-#include "core/sampling/density.h"
+#include "core/field/growing_area.h"
 #include "core/surface/parting_line.h"
 
 namespace whorl {
@@ -11,19 +11,6 @@ using Arguments = std::span<const std::string>;
 
 constexpr const char* usage =
     "comb-along [group NAME] [lift NUMBER] [length METRES] [reach METRES] X,Y,Z X,Y,Z... [/ X,Y,Z X,Y,Z...]";
-
-/// True for triangles with hair at a corner or in the middle.
-std::vector<std::uint8_t> growing(const Groom& groom) {
-    const DensityLookup density(groom);
-    const SurfaceMesh& mesh = *groom.mesh;
-    std::vector<std::uint8_t> grows(mesh.triangleCount(), 0);
-    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-        for (const auto& [u, v] : {std::pair(0.0f, 0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}, {0.3333f, 0.3333f}}) {
-            if (density.growsAt(mesh, {t, u, v})) grows[t] = 1;
-        }
-    }
-    return grows;
-}
 
 Result<std::string> combAlong(CommandContext& context, Arguments arguments, Progress& progress) {
     if (!context.hasGroom) return noGroomError();
@@ -72,7 +59,7 @@ Result<std::string> combAlong(CommandContext& context, Arguments arguments, Prog
         points.push_back(*point);
     }
     if (auto done = finish(); !done) return done.error();
-    const auto solver = FieldSolver::make(surface, growing(context.groom), *context.groom.partings, progress);
+    const auto solver = FieldSolver::make(surface, growingTriangles(context.groom), *context.groom.partings, progress);
     if (!solver) return solver.error();
     const auto field = solver->solve(strokes, options, progress);
     if (!field) return field.error();

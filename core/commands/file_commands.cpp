@@ -50,9 +50,10 @@ Result<std::string> save(CommandContext& context, Arguments arguments, Progress&
 }
 
 Result<std::string> loadMap(CommandContext& context, Arguments arguments, Progress&) {
-    if (arguments.size() != 2) return usageError("load-map NAME FILE");
+    const bool colour = arguments.size() == 3 && arguments[2] == "colour";
+    if (arguments.size() != (colour ? 3u : 2u)) return usageError("load-map NAME FILE [colour]");
     if (!context.hasGroom) return noGroomError();
-    auto map = readImage(arguments[1], ImageUse::Data, &context.problems);
+    auto map = readImage(arguments[1], colour ? ImageUse::Colour : ImageUse::Data, &context.problems);
     if (!map) return map.error();
     context.groom.maps.set(arguments[0], std::move(*map));
     context.groom.countAnew();
@@ -119,7 +120,8 @@ void addFileCommands(std::vector<Command>& list) {
     list.push_back({"open", "open FILE", "Opens a document, a package or a mesh.", true, open});
     list.push_back({"new", "new MESH", "Begins a groom on a mesh, without guides.", true, newGroom});
     list.push_back({"save", "save [FILE]", "Saves the document.", false, save});
-    list.push_back({"load-map", "load-map NAME FILE", "Reads an image as a map of numbers.", true, loadMap});
+    list.push_back({"load-map", "load-map NAME FILE [colour]", "Reads an image as a map of numbers or of colours.",
+                    true, loadMap});
     list.push_back(
         {"save-map", "save-map NAME FILE", "Writes a map as an image; the format follows the suffix.", false, saveMap});
     list.push_back(

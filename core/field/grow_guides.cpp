@@ -71,4 +71,22 @@ Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const Directi
     return {};
 }
 
+std::vector<FieldStroke> strokesFromGuides(const Groom& groom, const Surface& surface, int group) {
+    std::vector<FieldStroke> strokes;
+    for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+        if (group >= 0 && groom.guides.group(i) != group) continue;
+        FieldStroke stroke{{groom.guides.root(i)}, 1.0f};
+        for (const glm::vec3& point : groom.guides.points(i).subspan(1)) {
+            const auto hit = surface.query.nearest(point);
+            if (!hit) break;
+            // Only the part that lies near the skin says how hair lies there.
+            if (hit->distance > 2.0f * glm::distance(positionAt(surface.mesh(), stroke.points.front()), hit->position))
+                break;
+            stroke.points.push_back(hit->point);
+        }
+        if (stroke.points.size() >= 2) strokes.push_back(std::move(stroke));
+    }
+    return strokes;
+}
+
 }  // namespace whorl

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guides laid along a direction field: a combed coat from a few strokes.
+// Guides laid along a direction field, and a field from guides.
 #pragma once
 
 #include "core/base/progress.h"
@@ -22,5 +22,8 @@ struct GrowAlong {
 /// only when cancelled, with `groom` as it was.
 Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
                              const GrowAlong& options, Progress& progress);
+
+/// Strokes that follow the guides of a group (-1: all) as they lie over the skin: the field of a groom that is combed.
+std::vector<FieldStroke> strokesFromGuides(const Groom& groom, const Surface& surface, int group);
 
 }  // namespace whorl

@@ -45,6 +45,7 @@ void addGenerate(CLI::App& app);
 void addHash(CLI::App& app);
 void addExplain(CLI::App& app);
 void addRender(CLI::App& app);
+void addBakeLic(CLI::App& app);
 void addExport(CLI::App& app);
 void addRun(CLI::App& app);
 void addBench(CLI::App& app);

@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
     addHash(app);
     addExplain(app);
     addRender(app);
+    addBakeLic(app);
     addExport(app);
     addRun(app);
     addBench(app);

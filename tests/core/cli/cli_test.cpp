@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real whorl-cli: its programs, and how it refuses.
+#include "core/io/image.h"
 #include "tests/support/shapes.h"
 
 #include <QJsonArray>
@@ -172,6 +173,36 @@ private Q_SLOTS:
         const qsizetype header = bytes.indexOf("end_header\n") + 11;
         QVERIFY(bytes.left(header).contains("element vertex 777\n"));
         QCOMPARE(bytes.size() - header, qsizetype{777 * 32});
+    }
+
+    void hairTextureIsBakedAndWorn() {
+        const QString document = inScratch("lic.whorl"), image = inScratch("lic.png");
+        QCOMPARE(run({"new", meshFile(), "-o", document, "--guides", "40"}).status, 0);
+        const Answer baked =
+            run({"bake-lic", document, "-o", image, "--size", "64", "--length", "0.02", "--grain", "0.004"});
+        QVERIFY2(baked.status == 0, baked.errors.constData());
+        const Result<Map> map = readImage(image.toStdString(), ImageUse::Colour);
+        QVERIFY(map.ok());
+        QCOMPARE(map->width(), 64);
+        float low = 1.0f, high = 0.0f;
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                low = std::min(low, map->texel(x, y, 0));
+                high = std::max(high, map->texel(x, y, 0));
+            }
+        }
+        QVERIFY(high - low > 0.1f);
+        const QString script = inScratch("wear.txt"), worn = inScratch("worn.whorl");
+        write(script, ("open \"" + document + "\"\nload-map hair_texture \"" + image +
+                       "\" colour\ntexture * hair_texture\nsave \"" + worn + "\"\ninfo\n")
+                          .toStdString());
+        const Answer info = run({"run", script});
+        QVERIFY2(info.status == 0 && info.output.contains("map: hair_texture, 64 x 64, colours"),
+                 info.errors.constData());
+        refused({"bake-lic", document, "-o", image, "--size", "0"}, 2);
+        refused({"bake-lic", inScratch("missing.whorl"), "-o", image}, 1, "missing.whorl");
+        write(script, ("open \"" + document + "\"\ntexture * nothing\n").toStdString());
+        refused({"run", script}, 1, "nothing");
     }
 
     void scriptsRun() {
