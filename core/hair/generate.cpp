@@ -59,6 +59,8 @@ Result<void> Generator::State::prepare(const Groom& next, Progress& progress) {
     for (std::size_t b = 0; !changes.shapes && b < changes.blocks.size(); ++b)
         changes.blocks[b] = !next.guides.blockSameAs(b, before.guides);
 
+    changes.guides = changedGuides(before.guides, next.guides, changes.blocks);
+
     if (changes.bindings) parts.index = GuideIndex(next);
     if (changes.shapes) parts.shapes = GuideShapes(next);
     for (std::size_t b = 0; !changes.shapes && b < changes.blocks.size(); ++b)
@@ -97,7 +99,7 @@ void Generator::State::prepareClumps(bool scatterChanged, Progress& progress) {
     } else if (changes.clumps) {
         parts.clumps.build(parts.groom, chain, parts.index, parts.shapes, scatterChanged, progress);
     } else if (std::any_of(changes.blocks.begin(), changes.blocks.end(), [](std::uint8_t b) { return b != 0; })) {
-        parts.clumps.renew(parts.groom, chain, parts.shapes, changedGuides(parts.groom, changes), changes.movedCentres);
+        parts.clumps.renew(parts.groom, chain, parts.shapes, changes.guides, changes.movedCentres);
     }
 }
 

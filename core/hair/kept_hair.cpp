@@ -48,12 +48,14 @@ void copyHair(const GrownHairs& grown, std::uint32_t hair, const Strands& from, 
 
 }  // namespace
 
-std::vector<std::uint8_t> changedGuides(const Groom& groom, const HairChanges& changes) {
-    std::vector<std::uint8_t> changed(groom.guides.count(), 0);
-    for (std::size_t b = 0; b < changes.blocks.size(); ++b) {
-        if (!changes.blocks[b]) continue;
-        std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(groom.guides.firstOfBlock(b)),
-                    groom.guides.block(b).count(), std::uint8_t{1});
+std::vector<std::uint8_t> changedGuides(const GuideSet& before, const GuideSet& next,
+                                        const std::vector<std::uint8_t>& blocks) {
+    std::vector<std::uint8_t> changed(next.count(), 0);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (!blocks[b]) continue;
+        const std::size_t first = next.firstOfBlock(b), last = first + next.block(b).count();
+        for (std::size_t g = first; g < last; ++g)
+            changed[g] = before.count() != next.count() || !std::ranges::equal(before.points(g), next.points(g));
     }
     return changed;
 }
@@ -144,7 +146,7 @@ void KeptHair::edit(const HairParts& parts, const HairLookups& lookups, const Ha
         ownCopy();
         replaceHairs(sources, shape, m_batch.grown, *m_batch.strands, which);
     }
-    std::vector<std::uint32_t> guided = hairsOfChangedGuides(parts.groom, changes);
+    std::vector<std::uint32_t> guided = hairsOfChangedGuides(changes);
     if (!guided.empty()) {
         const auto middle = static_cast<std::ptrdiff_t>(which.size());
         which.insert(which.end(), guided.begin(), guided.end());
@@ -168,10 +170,10 @@ void KeptHair::edit(const HairParts& parts, const HairLookups& lookups, const Ha
 }
 
 // Those that a changed guide shapes, or the middle of whose lock has moved; ascending.
-std::vector<std::uint32_t> KeptHair::hairsOfChangedGuides(const Groom& groom, const HairChanges& changes) const {
+std::vector<std::uint32_t> KeptHair::hairsOfChangedGuides(const HairChanges& changes) const {
     std::vector<std::uint32_t> which;
     if (std::none_of(changes.blocks.begin(), changes.blocks.end(), [](std::uint8_t b) { return b != 0; })) return which;
-    const std::vector<std::uint8_t> changed = changedGuides(groom, changes);
+    const std::vector<std::uint8_t>& changed = changes.guides;
     const Bindings& bindings = m_batch.bindings;
     for (std::uint32_t i = 0; i < m_batch.grown.count(); ++i) {
         const std::size_t hair = m_batch.grown.roots[i];

@@ -19,6 +19,7 @@ struct HairChanges {
     bool shapes = true;  ///< all guides
     bool clumps = true;
     std::vector<std::uint8_t> blocks;                     ///< of guides, one each: changed
+    std::vector<std::uint8_t> guides;                     ///< one each: its points have changed
     std::vector<std::vector<std::uint8_t>> movedCentres;  ///< one list a clump, empty where none moved
     std::vector<std::uint32_t> places;                    ///< of the sampler's curve: paint on the density
     std::optional<TouchedMaps> shapeMaps, lookMaps;       ///< paint on what drives shape or look
@@ -41,7 +42,7 @@ private:
     void regrowAll(const HairParts& parts, const HairLookups& lookups, const HairChanges& changes, Progress& progress);
     void edit(const HairParts& parts, const HairLookups& lookups, const HairWish& wish, const HairChanges& changes,
               Progress& progress);
-    std::vector<std::uint32_t> hairsOfChangedGuides(const Groom& groom, const HairChanges& changes) const;
+    std::vector<std::uint32_t> hairsOfChangedGuides(const HairChanges& changes) const;
     std::shared_ptr<Strands> otherStrands();
     void ownStrands();
     void ownCopy();
@@ -56,7 +57,8 @@ private:
     std::optional<std::vector<std::uint32_t>> m_behind;
 };
 
-/// One a guide: true when its block has changed.
-std::vector<std::uint8_t> changedGuides(const Groom& groom, const HairChanges& changes);
+/// One a guide: true when its points have changed, which only those in `blocks` may have.
+std::vector<std::uint8_t> changedGuides(const GuideSet& before, const GuideSet& next,
+                                        const std::vector<std::uint8_t>& blocks);
 
 }  // namespace whorl
