@@ -57,8 +57,9 @@ Result<std::string> place(CommandContext& context, Arguments arguments, Progress
 }
 
 Result<std::string> placeOnVertices(CommandContext& context, Arguments arguments, Progress& progress) {
-    constexpr const char* usage = "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP]";
-    if (arguments.size() > 3) return usageError(usage);
+    constexpr const char* usage =
+        "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP|-] [corners|blurred|texels]";
+    if (arguments.size() > 4) return usageError(usage);
     if (!context.hasGroom) return noGroomError();
     VertexGuides options;
     if (!arguments.empty()) {
@@ -71,7 +72,12 @@ Result<std::string> placeOnVertices(CommandContext& context, Arguments arguments
         if (!number) return Error{"Guides a square metre must be 0 or more, not \"" + arguments[1] + "\"."};
         options.perSquareMetre = *number;
     }
-    if (arguments.size() > 2) options.lengthMap = arguments[2];
+    if (arguments.size() > 2 && arguments[2] != "-") options.lengthMap = arguments[2];
+    if (arguments.size() > 3) {
+        const auto way = std::find(triangleDensityNames.begin(), triangleDensityNames.end(), arguments[3]);
+        if (way == triangleDensityNames.end()) return usageError(usage);
+        options.density = static_cast<TriangleDensity>(way - triangleDensityNames.begin());
+    }
     const auto surface = context.surfaces.get(context.groom.mesh);
     if (auto done = placeGuidesOnVertices(context.groom, *surface, options, progress); !done) return done.error();
     return std::to_string(context.groom.guides.count()) + " guides";
@@ -179,9 +185,11 @@ void addEditCommands(std::vector<Command>& list) {
     list.push_back({"info", "info", "Prints what the groom holds.", false, info});
     list.push_back({"place-guides", "place-guides [COUNT] [LENGTH]",
                     "Replaces all guides by evenly spread ones that stand up, LENGTH metres long.", true, place});
-    list.push_back({"place-guides-on-vertices", "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP]",
+    list.push_back({"place-guides-on-vertices",
+                    "place-guides-on-vertices [LENGTH] [PER-SQUARE-METRE] [LENGTH-MAP|-] [corners|blurred|texels]",
                     "Replaces all guides by one on every vertex where hair grows, and more in triangles that are too "
-                    "large for as many a square metre; their segments grow longer from root to tip.",
+                    "large for as many a square metre; their segments grow longer from root to tip. The density of a "
+                    "triangle is the average of its corners, of its corners on blurred maps, or of all its texels.",
                     true, placeOnVertices});
     list.push_back({"tessellate-guides", "tessellate-guides SEGMENTS [GROUP]",
                     "Gives the guides and hairs of a group another number of segments, along smooth curves through the "

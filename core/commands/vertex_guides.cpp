@@ -32,7 +32,7 @@ float areaShare(const Piece& piece) {
 class Places {
 public:
     Places(const SurfaceMesh& mesh, const Groom& groom, const VertexGuides& options)
-        : m_mesh(mesh), m_groom(groom), m_density(groom), m_options(options) {}
+        : m_mesh(mesh), m_groom(groom), m_density(groom), m_triangles(groom, options.density), m_options(options) {}
 
     void addVertices() {
         std::vector<std::uint8_t> done(m_mesh.positions.size(), 0);
@@ -64,8 +64,8 @@ private:
 
     void split(std::uint32_t triangle, const Piece& piece, double area, int depth) {
         if (depth == deepest || m_roots.size() > mostGuides) return;
-        float density = 0.0f;
-        for (const glm::vec2& corner : piece) density += densityAt({triangle, corner.x, corner.y}) / 3.0f;
+        if (!m_density.growsOn(triangle)) return;
+        const float density = m_triangles.mean(triangle, piece);
         const double wanted = static_cast<double>(density * areaShare(piece) * m_options.perSquareMetre) * area;
         if (!(wanted > 1.0)) return;
         // Not too near an edge: slivers would be split without end.
@@ -88,6 +88,7 @@ private:
     const SurfaceMesh& m_mesh;
     const Groom& m_groom;
     DensityLookup m_density;
+    TriangleDensities m_triangles;
     const VertexGuides& m_options;
     std::vector<SurfacePoint> m_roots;
     std::uint32_t m_splits = 0;

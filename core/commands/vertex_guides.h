@@ -5,6 +5,7 @@
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/model/groom.h"
+#include "core/sampling/triangle_density.h"
 #include "core/surface/surface.h"
 
 #include <span>
@@ -16,7 +17,8 @@ namespace whorl {
 struct VertexGuides {
     float length = 0.0f;          ///< metres where the map is white; 0: a tenth of the mesh's size
     float perSquareMetre = 0.0f;  ///< wanted at density 1; 0: vertices only
-    std::string lengthMap{};      ///< a map of the groom, or empty; guides are as long as it is bright
+    TriangleDensity density = TriangleDensity::Corners;  ///< how it is measured on a triangle
+    std::string lengthMap{};  ///< a map of the groom, or empty; guides are as long as it is bright
 };
 
 /// Replaces all guides by one on each vertex where hair grows (seeds 001 and 003). Triangles where density x area x

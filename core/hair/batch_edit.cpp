@@ -194,6 +194,7 @@ void renewRoots(const HairParts& parts, const HairLookups& lookups, const HairWi
     batch.free.insert(batch.free.end(), batch.gone.begin(), batch.gone.end());
     batch.gone.clear();
     const RootSource source{*parts.groom.mesh, parts.sampler, lookups.density, wish.request};
+    parts.sampler.prepare(wish.request, progress);
     const RootEdits changed = compareRanges(source, ranges, batch);
     if (changed.edits.empty()) return;
     const std::vector<std::uint32_t> slots = takeSlots(batch, changed.roots.size());
@@ -291,7 +292,7 @@ void replaceHairs(const HairSources& sources, const BatchEdit& edit, GrownHairs&
 }
 
 GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const BatchEdit& edit, const Strands& from,
-                   Strands& to, std::vector<std::uint32_t>& which) {
+                   Strands& to, std::size_t same, std::vector<std::uint32_t>& which) {
     which.clear();
     GrownHairs next;
     next.roots.reserve(grown.count() + edit.slots.size());
@@ -302,7 +303,10 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
     std::int64_t vertices = 0;  // more than before, so far
     const auto keep = [&](std::uint32_t last) {
         const auto by = static_cast<std::int64_t>(next.firstStrand.back()) - grown.firstStrand[hair];
-        addRuns(grown, hair, last, by, vertices, runs);
+        // Nothing has moved before the first edit.
+        const bool moved = hair > 0 || !which.empty();
+        const std::uint32_t there = moved ? hair : std::min(last, static_cast<std::uint32_t>(same));
+        addRuns(grown, there, last, by, vertices, runs);
         next.roots.insert(next.roots.end(), grown.roots.begin() + hair, grown.roots.begin() + last);
         for (; hair < last; ++hair)
             next.firstStrand.push_back(static_cast<std::uint32_t>(grown.firstStrand[hair + 1] + by));

@@ -41,9 +41,10 @@ void replaceHairs(const HairSources& sources, const BatchEdit& edit, GrownHairs&
                   std::vector<std::uint32_t>& which);
 
 /// The strands after an edit: what is kept is copied from `from`, which has the layout `grown`; all that is one a hair
-/// is filled in. `which`: places of hairs to be evaluated, ascending.
+/// is filled in. The first `same` hairs of `to` are those of `from` already. `which`: places of hairs to be evaluated,
+/// ascending.
 GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const BatchEdit& edit, const Strands& from,
-                   Strands& to, std::vector<std::uint32_t>& which);
+                   Strands& to, std::size_t same, std::vector<std::uint32_t>& which);
 
 /// to = from, by all threads.
 void copyStrands(const Strands& from, Strands& to);

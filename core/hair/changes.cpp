@@ -95,8 +95,9 @@ bool sameDensity(const Groom& a, const Groom& b, TouchedMaps* touched) {
     const Both both{a, b, touched};
     if (!sameGrowth(a, b)) return false;
     if (a.counts->groupMap != b.counts->groupMap || !sameMap(both, a.counts->groupMap.name)) return false;
-    const bool numbers = allGroups(
-        a, b, [](const HairParams& x, const HairParams& y) { return x.general.density == y.general.density; });
+    const bool numbers = allGroups(a, b, [](const HairParams& x, const HairParams& y) {
+        return x.general.density == y.general.density && x.general.even == y.general.even;
+    });
     if (!numbers) return false;
     for (const Group& group : *a.groups)
         if (!sameMap(both, group.params.general.density.map)) return false;

@@ -78,7 +78,9 @@ Result<HairExplanation> explainHair(const Groom& groom, std::shared_ptr<const Su
     const double hairs = count > 0 ? static_cast<double>(count) : std::max(groom.counts->hairs, 0);
     const RootSource source{*groom.mesh, *sampler, density, requestFor(*groom.counts, *sampler, hairs)};
     const std::uint32_t most = sampler->limitOf(255, source.request.rate);
-    if (id >= most)
+    const bool even = (id & evenId) != 0;
+    source.sampler.prepare(source.request, progress);
+    if ((id & ~evenId) >= most || (even && !density.anyEven()))
         return Error{"There is no hair " + std::to_string(id) + "; numbers of this groom's hairs are below " +
                      std::to_string(most) + "."};
     const GuideIndex index(groom);
@@ -95,9 +97,13 @@ Result<HairExplanation> explainHair(const Groom& groom, std::shared_ptr<const Su
     std::optional<SkinGuard> guard;
     if (group.params.general.keepOutside) guard.emplace(surface->sharedSkin());
     hair.stages = referenceStages(groom, index, hair.root, lookup, guard ? &*guard : nullptr, progress);
-    if (!(hair.density > 0.0f)) {
+    if (even != density.isEven(hair.root.group)) {
+        hair.why =
+            even ? "Hairs of its group do not keep apart, so they have other numbers."
+                 : "Hairs of its group keep apart, so they have other numbers: from " + std::to_string(evenId) + " on.";
+    } else if (!(hair.density > 0.0f)) {
         hair.why = "The density at its root is zero.";
-    } else if (id >= sampler->limitOf(place.code, source.request.rate)) {
+    } else if ((id & ~evenId) >= sampler->limitOf(place.code, source.request.rate)) {
         hair.why = "Its root is there for more hair than the density asks for.";
     } else if (hair.guides.empty()) {
         hair.why = hair.separated.empty() ? "Its group has no guides." : "Partings separate it from all guides.";

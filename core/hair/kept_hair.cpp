@@ -135,8 +135,10 @@ void KeptHair::edit(const HairParts& parts, const HairLookups& lookups, const Ha
     std::vector<std::uint32_t> which;
     if (!shape.empty() && !keepsLayout(sources, m_batch.grown, shape, *m_batch.strands)) {
         m_thin.reset();
+        const std::size_t same = m_spare && m_spare.use_count() == 1 ? m_same : 0;
         const std::shared_ptr<Strands> next = otherStrands();
-        m_batch.grown = spliced(sources, m_batch.grown, shape, *m_batch.strands, *next, which);
+        m_batch.grown = spliced(sources, m_batch.grown, shape, *m_batch.strands, *next, same, which);
+        m_same = shape.edits.front().first;
         m_spare = m_batch.strands->bytes() <= mostSpare ? m_batch.strands : nullptr;
         m_batch.strands = next;
         m_behind.reset();
@@ -199,6 +201,7 @@ std::shared_ptr<Strands> KeptHair::otherStrands() {
 // Makes the strands writable, whatever is in them. Somebody holds them: writes go to other memory.
 void KeptHair::ownStrands() {
     m_behind.reset();
+    m_same = 0;
     if (m_batch.strands.use_count() == 1) {
         acquireSole(m_batch.strands);
         return;
@@ -228,10 +231,12 @@ void KeptHair::ownCopy() {
     m_spare = m_batch.strands->bytes() <= mostSpare ? m_batch.strands : nullptr;
     m_batch.strands = std::move(other);
     m_behind.emplace();
+    m_same = m_batch.grown.count();
 }
 
 // The spare has not these changes of the newest.
 void KeptHair::noteBehind(const std::vector<std::uint32_t>& which) {
+    if (!which.empty()) m_same = std::min<std::size_t>(m_same, which.front());
     if (!m_behind) return;
     if (m_behind->size() + which.size() > m_batch.grown.count() / 2) {
         m_behind.reset();

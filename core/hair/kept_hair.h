@@ -55,6 +55,7 @@ private:
     std::shared_ptr<Strands> m_spare;       // what was shared before; used again when nobody holds it any more
     // The hairs that differ between the spare and the newest; nothing when the layout does, or many.
     std::optional<std::vector<std::uint32_t>> m_behind;
+    std::size_t m_same = 0;  // first hairs of the spare that are those of the newest
 };
 
 /// One a guide: true when its points have changed, which only those in `blocks` may have.

@@ -57,7 +57,8 @@ void makeRoots(const RootSource& source, std::span<const RootRange> ranges, std:
     for (std::size_t& end : ends) {
         for (; i < end; ++i) {
             HairRoot root = rootAt(source, list.id(i), list.point(i));
-            root.unit = unitOf(stratumOf(keys, root.id));
+            root.unit = list.hasUnits() ? list.unit(i) : unitOf(stratumOf(keys, root.id));
+            if (list.hasUnits() && ((root.id & evenId) != 0) != source.density.isEven(root.group)) continue;
             if (source.density.at(root.point.triangle, root.uv) > 0.0f) roots.push_back(root);
         }
         end = roots.size();
@@ -66,6 +67,7 @@ void makeRoots(const RootSource& source, std::span<const RootRange> ranges, std:
 
 std::vector<HairRoot> makeRoots(const RootSource& source, RootRange range, Progress& progress) {
     if (source.sampler.empty() || range.last <= range.first) return {};
+    source.sampler.prepare(source.request, progress);
     const auto pieces = static_cast<std::size_t>(expectedRoots(source, range) / rootsPerPiece) + 1;
     std::vector<std::vector<HairRoot>> made(pieces);
     parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {

@@ -89,6 +89,7 @@ inline constexpr std::array<std::string_view, 2> guidesFromNames{"Nearest guides
 struct GeneralParams {
     int segments = 15;
     Driven density{1.0f};
+    bool even = false;
     int samples = 3;
     Choice interpolation{};
     Choice guidesFrom{};
@@ -117,6 +118,12 @@ struct GeneralParams {
                         .softMax = 1,
                         .tip = "How many hairs grow here compared with elsewhere. Zero grows nothing."},
               self.density);
+        visit(
+            ParamInfo{.id = "even",
+                      .label = "Even spacing",
+                      .tip = "Keeps hairs apart from each other: no clumps and gaps, as in short fur. Takes longer the "
+                             "first time."},
+            self.even);
         visit(ParamInfo{.id = "samples",
                         .label = "Guides a hair",
                         .min = 1,

@@ -21,7 +21,7 @@ DensityLookup::DensityLookup(const Groom& groom) : m_groom(groom) {
     if (groom.groups->size() > 1) m_groupMap = use(groom.counts->groupMap.name);
     for (const Group& group : *groom.groups) {
         const Driven& density = group.params.general.density;
-        m_groups.push_back({density.value, use(density.map)});
+        m_groups.push_back({density.value, use(density.map), group.params.general.even});
     }
     m_growsByTriangle.assign(groom.mesh->triangles.size(), 1);
     const auto& parts = groom.mesh->parts;
@@ -46,6 +46,14 @@ float DensityLookup::at(std::uint32_t triangle, glm::vec2 uv) const {
     const Entry& group = m_groups[static_cast<std::size_t>(groupAt(uv))];
     const float density = group.map ? group.value * group.map->sample(uv) : group.value;
     return density > 0.0f && std::isfinite(density) ? density : 0.0f;
+}
+
+bool DensityLookup::anyEven() const {
+    return std::any_of(m_groups.begin(), m_groups.end(), [](const Entry& group) { return group.even; });
+}
+
+bool DensityLookup::allEven() const {
+    return std::all_of(m_groups.begin(), m_groups.end(), [](const Entry& group) { return group.even; });
 }
 
 bool DensityLookup::growsOn(std::uint32_t triangle) const {

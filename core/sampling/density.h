@@ -20,6 +20,11 @@ public:
     /// Zero or more; NaN and negative texels count as zero.
     float at(std::uint32_t triangle, glm::vec2 uv) const;
     int groupAt(glm::vec2 uv) const;
+    /// True when the hairs of a group keep apart (GeneralParams::even).
+    bool isEven(int group) const { return m_groups[static_cast<std::size_t>(group)].even; }
+    /// True when those of any, of all groups do.
+    bool anyEven() const;
+    bool allEven() const;
     /// Largest texel count along one side of the maps in use: one texel is 1 / this. 1 when no map is used.
     int mapWidth() const { return m_width; }
     int mapHeight() const { return m_height; }
@@ -47,6 +52,7 @@ private:
     struct Entry {
         float value;
         const Map* map;
+        bool even;
     };
     const Groom& m_groom;
     std::vector<Entry> m_groups;

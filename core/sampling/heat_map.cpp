@@ -65,15 +65,10 @@ void smooth(const std::vector<std::array<std::uint32_t, 3>>& around, std::vector
 
 }  // namespace
 
-Result<HeatMap> heatMap(const SurfaceMesh& mesh, const SubTriangleSampler& sampler, std::span<const SurfacePoint> roots,
+Result<HeatMap> heatMap(const SurfaceMesh& mesh, const RootSampler& sampler, std::span<const SurfacePoint> roots,
                         int passes, Progress& progress) {
     HeatMap map;
-    std::vector<double> weights(mesh.triangleCount(), 0.0);
-    double total = 0.0;
-    for (const SubTriangleSampler::SubTriangle& piece : sampler.subTriangles()) {
-        weights[piece.triangle] += static_cast<double>(piece.weight);
-        total += static_cast<double>(piece.weight);
-    }
+    const std::vector<double> shares = sampler.sharesByTriangle(mesh.triangleCount());
     map.asked.assign(mesh.triangleCount(), 0.0f);
     map.placed.assign(mesh.triangleCount(), 0.0f);
     std::size_t counted = 0;
@@ -82,9 +77,8 @@ Result<HeatMap> heatMap(const SurfaceMesh& mesh, const SubTriangleSampler& sampl
         map.placed[root.triangle] += 1.0f;
         ++counted;
     }
-    for (std::size_t i = 0; i < weights.size() && total > 0.0; ++i) {
-        map.asked[i] = static_cast<float>(weights[i] / total * static_cast<double>(counted));
-    }
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        map.asked[i] = static_cast<float>(shares[i] * static_cast<double>(counted));
     if (progress.cancelled()) return cancelledError();
     const auto around = neighbours(mesh);
     for (int pass = 0; pass < passes; ++pass) {

@@ -4,7 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
-#include "core/sampling/sub_triangle_sampler.h"
+#include "core/sampling/root_sampler.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,14 +15,14 @@ namespace whorl {
 
 /// Hairs of each triangle of the mesh. The sums of both are equal (but for roots on no triangle).
 struct HeatMap {
-    std::vector<float> asked;   ///< share of the sampler's weight times the number of roots
+    std::vector<float> asked;   ///< share of what the density asks for, times the number of roots
     std::vector<float> placed;  ///< roots
 };
 
 /// Counts `roots` against what `sampler` (of the same mesh) asks for; then `passes` times each triangle gives half of
 /// its counts to its neighbours across edges, a sixth to each (what has no neighbour keeps its share): a triangle alone
 /// holds too few roots to compare. Sums stay. Fails only when cancelled.
-Result<HeatMap> heatMap(const SurfaceMesh& mesh, const SubTriangleSampler& sampler, std::span<const SurfacePoint> roots,
+Result<HeatMap> heatMap(const SurfaceMesh& mesh, const RootSampler& sampler, std::span<const SurfacePoint> roots,
                         int passes, Progress& progress);
 
 /// Linear colour of `placed` roots where `asked` were asked for: white where they agree, blue where half or fewer were

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace whorl {
 
@@ -19,15 +20,22 @@ public:
     const float* u() const { return m_u.get(); }
     const float* v() const { return m_v.get(); }
     std::uint32_t id(std::size_t i) const { return m_ids[i]; }
+    /// Where on the curve, when `hasUnits` (else it follows from the id).
+    std::uint32_t unit(std::size_t i) const { return m_units[i]; }
+    bool hasUnits() const { return !m_units.empty(); }
     SurfacePoint point(std::size_t i) const { return {m_triangles[i], m_u[i], m_v[i]}; }
     /// Keeps the memory.
-    void clear() { m_count = 0; }
+    void clear() {
+        m_count = 0;
+        m_units.clear();
+    }
     void reserve(std::size_t capacity);
 
 private:
     friend class RootSampler;
     std::unique_ptr<std::uint32_t[]> m_ids, m_triangles;
     std::unique_ptr<float[]> m_u, m_v;
+    std::vector<std::uint32_t> m_units;  // empty, or as many
     std::size_t m_capacity = 0;
     std::size_t m_count = 0;
 };

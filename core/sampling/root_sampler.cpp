@@ -62,6 +62,11 @@ Result<RootSampler> RootSampler::build(const Groom& groom, const DensityLookup& 
     const bool serves = earlier && earlier->m_curve->serves(mesh, density.grows());
     sampler.m_curve = serves ? earlier->m_curve : std::make_shared<SurfaceCurve>(mesh, density.grows());
     const SurfaceCurve& curve = *sampler.m_curve;
+    if (density.anyEven()) {
+        sampler.m_spread = density.allEven() ? Spread::Even : Spread::Mixed;
+        const bool same = serves && earlier->m_even;
+        sampler.m_even = same ? earlier->m_even : std::make_shared<EvenSequences>(groom.mesh.share(), sampler.m_curve);
+    }
     const std::size_t count = curve.count();
     std::vector<std::uint8_t> depths(count);
     parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
@@ -217,6 +222,7 @@ void RootSampler::sumUp() {
         sum += weight;
     }
     m_before.push_back(sum);
+    m_brightest = m_most.empty() ? std::uint8_t{0} : *std::max_element(m_most.begin(), m_most.end());
     m_weight = sum / static_cast<double>(SurfaceCurve::end) * m_scale;
 }
 
@@ -238,6 +244,7 @@ std::uint32_t RootSampler::limitOf(std::uint8_t code, double rate) const {
 
 RootSampler::Candidate RootSampler::candidate(std::uint32_t seed, std::uint32_t index) const {
     assert(!m_curve->empty());
+    if (index & evenId) return evenCandidate(seed, index & ~evenId);
     const CandidateKeys keys = candidateKeys(seed);
     Candidate found;
     found.unit = unitOf(stratumOf(keys, index));
@@ -260,12 +267,116 @@ void RootSampler::sample(const RootRequest& request, RootRange range, RootList& 
 
 void RootSampler::sample(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
                          std::vector<std::size_t>& ends) const {
+    sampleAs(m_spread, request, ranges, roots, ends);
+}
+
+void RootSampler::sampleAs(Spread spread, const RootRequest& request, std::span<const RootRange> ranges,
+                           RootList& roots, std::vector<std::size_t>& ends) const {
     ends.assign(ranges.size(), roots.count());
     if (empty()) return;
-    std::array<std::uint32_t, 256> limits;
+    if (spread == Spread::Plain) return samplePlain(request, ranges, roots, ends);
+    if (spread == Spread::Even) return sampleEven(request, ranges, roots, ends);
+    RootList plain, even;
+    std::vector<std::size_t> plainEnds(ranges.size()), evenEnds(ranges.size());
+    samplePlain(request, ranges, plain, plainEnds);
+    sampleEven(request, ranges, even, evenEnds);
+    const CandidateKeys keys = candidateKeys(request.seed);
+    for (std::size_t i = 0; i < plain.count(); ++i) plain.m_units.push_back(unitOf(stratumOf(keys, plain.id(i))));
+    roots.reserve(roots.count() + plain.count() + even.count());
+    const auto take = [&](const RootList& from, std::size_t i) {
+        roots.m_ids[roots.m_count] = from.m_ids[i];
+        roots.m_triangles[roots.m_count] = from.m_triangles[i];
+        roots.m_u[roots.m_count] = from.m_u[i];
+        roots.m_v[roots.m_count] = from.m_v[i];
+        roots.m_units.push_back(from.m_units[i]);
+        ++roots.m_count;
+    };
+    std::size_t p = 0, e = 0;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        while (p < plainEnds[i] || e < evenEnds[i]) {
+            // Plain ids are smaller.
+            if (e == evenEnds[i] || (p < plainEnds[i] && plain.unit(p) <= even.unit(e))) {
+                take(plain, p++);
+            } else {
+                take(even, e++);
+            }
+        }
+        ends[i] = roots.m_count;
+    }
+}
+
+RootSampler::Limits RootSampler::limitsOf(double rate) const {
+    Limits limits;
+    for (unsigned code = 0; code < 256; ++code) limits[code] = limitOf(static_cast<std::uint8_t>(code), rate);
+    return limits;
+}
+
+std::shared_ptr<const EvenSequence> RootSampler::evenFor(const RootRequest& request, bool alone,
+                                                         Progress& progress) const {
+    return m_even->get(request.seed, limitOf(m_brightest, request.rate), alone, progress);
+}
+
+void RootSampler::prepare(const RootRequest& request, Progress& progress) const {
+    if (m_spread != Spread::Plain && !empty()) evenFor(request, false, progress);
+}
+
+void RootSampler::sampleEven(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                             std::vector<std::size_t>& ends) const {
+    Progress progress;
+    const std::shared_ptr<const EvenSequence> sequence = evenFor(request, true, progress);
+    const std::span<const EvenSequence::Place> places = sequence->places();
+    const Limits limits = limitsOf(request.rate);
+    const SurfaceCurve& curve = *m_curve;
+    const auto before = [](const EvenSequence::Place& place, std::uint32_t unit) { return place.unit < unit; };
+    for (std::size_t r = 0; r < ranges.size(); ++r) {
+        ends[r] = roots.m_count;
+        if (ranges[r].first >= ranges[r].last) continue;
+        const auto first = std::lower_bound(places.begin(), places.end(), ranges[r].first, before);
+        const auto last = std::lower_bound(first, places.end(), ranges[r].last, before);
+        std::size_t triangle = curve.placeAt(ranges[r].first);
+        for (auto place = first; place != last; ++place) {
+            while (curve.begins()[triangle + 1] <= place->unit) ++triangle;
+            if (place->rank >= limits[m_most[triangle]]) continue;
+            const unsigned depth = m_depths[triangle];
+            const std::uint8_t code =
+                m_codes[m_firstCode[triangle] + (depth > 0 ? place->share >> (32u - 2u * depth) : 0u)];
+            if (place->rank >= limits[code]) continue;
+            if (roots.m_count == roots.m_capacity) roots.reserve(2 * roots.m_capacity + 1024);
+            std::int32_t u = 0, v = 0;
+            placeInTriangle(place->share, u, v);
+            roots.m_ids[roots.m_count] = place->rank | evenId;
+            roots.m_triangles[roots.m_count] = place->triangle;
+            roots.m_u[roots.m_count] = static_cast<float>(u) * placeUnit;
+            roots.m_v[roots.m_count] = static_cast<float>(v) * placeUnit;
+            roots.m_units.push_back(place->unit);
+            ++roots.m_count;
+        }
+        ends[r] = roots.m_count;
+    }
+}
+
+// `rank` below what was asked for in that many; else the last.
+RootSampler::Candidate RootSampler::evenCandidate(std::uint32_t seed, std::uint32_t rank) const {
+    Progress progress;
+    const auto sequence = m_even->get(seed, rank + 1.0, true, progress);
+    for (const EvenSequence::Place& place : sequence->places()) {
+        if (place.rank != std::min(rank, sequence->count() - 1)) continue;
+        std::int32_t u = 0, v = 0;
+        placeInTriangle(place.share, u, v);
+        const std::size_t triangle = m_curve->placeAt(place.unit);
+        const unsigned depth = m_depths[triangle];
+        return {{place.triangle, static_cast<float>(u) * placeUnit, static_cast<float>(v) * placeUnit},
+                place.unit,
+                m_codes[m_firstCode[triangle] + (depth > 0 ? place.share >> (32u - 2u * depth) : 0u)]};
+    }
+    return {};
+}
+
+void RootSampler::samplePlain(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                              std::vector<std::size_t>& ends) const {
+    const Limits limits = limitsOf(request.rate);
     std::array<std::uint8_t, 256> levels;
     for (unsigned code = 0; code < 256; ++code) {
-        limits[code] = limitOf(static_cast<std::uint8_t>(code), request.rate);
         // 2^level candidates are enough.
         const auto level = static_cast<unsigned>(std::bit_width(limits[code] > 0 ? limits[code] - 1 : 0u));
         levels[code] = static_cast<std::uint8_t>(std::clamp(level, leastLevel, 31u));
@@ -306,12 +417,18 @@ float RootSampler::weightFor(double hairs, std::uint32_t seed) const {
     const auto wanted = static_cast<std::int64_t>(hairs + 0.5);
     const auto pieces = static_cast<std::uint32_t>(hairs / 32768.0) + 1;
     std::vector<RootList> lists(pieces);
+    // Of groups of both kinds, each has its share of either sequence.
+    const Spread spread = m_spread == Spread::Mixed ? Spread::Plain : m_spread;
     const auto excessAt = [&](float weight) {
+        const RootRequest request{hairs / static_cast<double>(weight), seed};
+        Progress progress;
+        if (spread == Spread::Even) evenFor(request, false, progress);
         parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 lists[i].clear();
-                sample({hairs / static_cast<double>(weight), seed}, part(static_cast<std::uint32_t>(i), pieces),
-                       lists[i]);
+                const RootRange range = part(static_cast<std::uint32_t>(i), pieces);
+                std::vector<std::size_t> ends;
+                sampleAs(spread, request, std::span(&range, 1), lists[i], ends);
             }
         });
         std::int64_t count = 0;
@@ -360,6 +477,13 @@ double RootSampler::shareBefore(std::uint32_t unit) const {
     for (std::size_t i = place / trianglesPerSum * trianglesPerSum; i < place; ++i) before += weightOf(i);
     const double inside = static_cast<double>(unit - m_curve->begins()[place]);
     return (before + inside * static_cast<double>(m_means[place])) / m_before.back();
+}
+
+std::vector<double> RootSampler::sharesByTriangle(std::size_t triangleCount) const {
+    std::vector<double> shares(triangleCount, 0.0);
+    for (std::size_t i = 0; !empty() && i < m_curve->count(); ++i)
+        shares[m_curve->triangles()[i]] = weightOf(i) / m_before.back();
+    return shares;
 }
 
 std::uint32_t RootSampler::cut(double share) const {

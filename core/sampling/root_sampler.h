@@ -7,10 +7,12 @@
 #include "core/model/map_changes.h"
 #include "core/sampling/candidates.h"
 #include "core/sampling/density_codes.h"
+#include "core/sampling/even_sequence.h"
 #include "core/sampling/root_list.h"
 #include "core/sampling/surface_curve.h"
 #include "core/sampling/uv_cells.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -31,6 +33,9 @@ struct RootRequest {
     std::uint32_t seed = 1;
     bool operator==(const RootRequest&) const = default;
 };
+
+/// Ids of hairs that keep apart have this bit: their numbers in another sequence (EvenSequence).
+inline constexpr std::uint32_t evenId = 0x80000000u;
 
 /// The density of all places of a surface: triangles are subdivided 1:4 as the reference's are (see
 /// sub_triangle_sampler.h), with one byte a piece. No piece depends on another, so paint moves no hair but under the
@@ -60,8 +65,15 @@ public:
     /// any number of threads.
     float weightFor(double hairs, std::uint32_t seed) const;
     bool empty() const { return !(m_weight > 0.0); }
+    /// What is asked for on each triangle of a mesh of `triangleCount`: shares of all, or zeros when empty.
+    std::vector<double> sharesByTriangle(std::size_t triangleCount) const;
 
-    /// Appends the roots in a range, in order of the curve.
+    /// Where hairs keep apart, makes ready what `sample` needs for a request: to be called outside of parallel loops,
+    /// since it takes long the first time. Cancelled: not ready.
+    void prepare(const RootRequest& request, Progress& progress) const;
+
+    /// Appends the roots in a range, in order of the curve. Where some groups keep hairs apart and others do not, roots
+    /// of both kinds; those with `evenId` are for the groups that do, the others for those that do not.
     void sample(const RootRequest& request, RootRange range, RootList& roots) const;
     /// The same for several ranges, one after another. `ends`: the count of `roots` after each.
     void sample(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
@@ -97,6 +109,20 @@ private:
     void sumUp();
     void store(std::size_t place, int depth, std::span<const std::uint8_t> codes);
     void closeGaps();
+
+    // Which sequence roots come from.
+    enum class Spread : std::uint8_t { Plain, Even, Mixed };
+    // By density code: candidates below are hairs.
+    using Limits = std::array<std::uint32_t, 256>;
+    Limits limitsOf(double rate) const;
+    void sampleAs(Spread spread, const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                  std::vector<std::size_t>& ends) const;
+    void samplePlain(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                     std::vector<std::size_t>& ends) const;
+    void sampleEven(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
+                    std::vector<std::size_t>& ends) const;
+    Candidate evenCandidate(std::uint32_t seed, std::uint32_t rank) const;
+    std::shared_ptr<const EvenSequence> evenFor(const RootRequest& request, bool alone, Progress& progress) const;
     double weightOf(std::size_t place) const;
 
     std::shared_ptr<const SurfaceCurve> m_curve = std::make_shared<SurfaceCurve>();
@@ -111,7 +137,10 @@ private:
     std::vector<double> m_before;  // weight before every 64th triangle, and of all
     double m_scale = 0.0;          // density of code 255
     double m_weight = 0.0;
-    int m_allowed = maxDepth;  // depth of no triangle is greater
+    int m_allowed = maxDepth;      // depth of no triangle is greater
+    std::uint8_t m_brightest = 0;  // largest code of all
+    Spread m_spread = Spread::Plain;
+    std::shared_ptr<EvenSequences> m_even;  // null when Plain
     // Made by the first update.
     std::shared_ptr<const UvCells> m_cells;
     BorderedTexels m_texels;

@@ -14,23 +14,24 @@ constexpr float opacity = 0.9f;
 std::vector<glm::vec4> coloursOf(const Groom& groom, const Strands& strands, Progress& progress) {
     const SurfaceMesh& mesh = *groom.mesh;
     const DensityLookup density(groom);
-    const Result<SubTriangleSampler> sampler = SubTriangleSampler::build(mesh, density, {}, progress);
+    const Result<RootSampler> sampler = RootSampler::build(groom, density, progress);
     if (!sampler) return {};
-    std::size_t growing = 0;
-    std::vector<std::uint8_t> grows(mesh.triangleCount(), 0);
-    for (const auto& piece : sampler->subTriangles()) {
-        growing += grows[piece.triangle] == 0 && piece.weight > 0.0f ? 1 : 0;
-        if (piece.weight > 0.0f) grows[piece.triangle] = 1;
-    }
+    const std::vector<double> shares = sampler->sharesByTriangle(mesh.triangleCount());
+    const auto growing =
+        static_cast<std::size_t>(std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; }));
+    // A strand is one root, however many hairs it has.
+    std::vector<SurfacePoint> roots;
+    for (std::size_t i = 0; i < strands.count(); ++i)
+        if (strands.members[i] == 0) roots.push_back(strands.roots[i]);
     // Each pass reaches about one triangle more; chance fades where some thirty hairs come together.
-    const std::size_t hairs = std::max<std::size_t>(strands.count(), 1);
+    const std::size_t hairs = std::max<std::size_t>(roots.size(), 1);
     const auto passes = static_cast<int>(std::clamp<std::size_t>(30 * growing / hairs, 2, 60));
-    const Result<HeatMap> heat = heatMap(mesh, *sampler, strands.roots, passes, progress);
+    const Result<HeatMap> heat = heatMap(mesh, *sampler, roots, passes, progress);
     if (!heat) return {};
     std::vector<glm::vec4> colours(mesh.triangleCount());
     for (std::size_t i = 0; i < colours.size(); ++i) {
         // Smoothing carries hairs over the edge of what grows; outside nothing is asked for.
-        const bool shown = grows[i] != 0 || heat->placed[i] > 0.5f;
+        const bool shown = shares[i] > 0.0 || heat->placed[i] > 0.5f;
         colours[i] = shown ? glm::vec4(heatColour(heat->asked[i], heat->placed[i]), opacity) : glm::vec4(0.0f);
     }
     return colours;

@@ -151,8 +151,7 @@ std::vector<double> strips(const SurfaceMesh& mesh, const std::vector<SurfacePoi
 }
 
 // Building and sampling together against rejection, which needs no preparation but the triangles' areas.
-BenchRow rejectionRow(double mean) {
-    const Groom groom = groomOf(bunnyRings, noise(1024, mean));
+BenchRow rejectionRow(const std::string& name, const Groom& groom) {
     const DensityLookup density(groom);
     const SubTriangleSampler sampler = build(groom, density, 100.0f);
     std::vector<SurfacePoint> ours;
@@ -176,14 +175,8 @@ BenchRow rejectionRow(double mean) {
         const double chance = std::sqrt((a[i] + b[i]) / static_cast<double>(sampleCount));
         correct = correct && std::abs(a[i] - b[i]) < 5.0 * chance + 0.002 * a[i];
     }
-    return {"sampler/noise map of mean " + rounded(mean, "%.2f"),
-            medians.ours,
-            medians.baseline,
-            "rejection sampling",
-            static_cast<double>(sampleCount),
-            "roots",
-            correct,
-            noteOf(sampler)};
+    return {name,    medians.ours, medians.baseline, "rejection sampling", static_cast<double>(sampleCount),
+            "roots", correct,      noteOf(sampler)};
 }
 
 std::string noteOf(const RootSampler& sampler) {
@@ -252,6 +245,28 @@ BenchRow productionPreprocessRow(const std::string& name, const Groom& groom) {
             note};
 }
 
+// Places that keep apart, made for the first time: what "even spacing" costs once for a mesh and seed.
+BenchRow evenRow(const Groom& groom, std::uint32_t count) {
+    const ThreadLimit limit(1);
+    const DensityLookup density(groom);
+    Progress progress;
+    const RootSampler sampler = std::move(*RootSampler::build(groom, density, progress));
+    std::uint32_t made = 0;
+    std::size_t eliminated = 0;
+    const SubTriangleSampler reference = build(groom, density, 100.0f);
+    const Medians medians =
+        interleaved([&] { made = EvenSequence(*groom.mesh, sampler.curve(), 1, count, false, progress).count(); },
+                    [&] { eliminated = evenRoots(*groom.mesh, reference, count, 1, progress)->size(); });
+    return {"sampler/even spacing, " + rounded(count, "%.0f") + " roots",
+            medians.ours,
+            medians.baseline,
+            "sample elimination (Yuksel), as for guides; spreads one number better and no smaller one",
+            static_cast<double>(count),
+            "roots",
+            made == count && eliminated == count,
+            ""};
+}
+
 BenchRow guidesRow() {
     const Groom groom = groomOf(bunnyRings, noise(1024, 0.5));
     const DensityLookup density(groom);
@@ -279,14 +294,22 @@ std::vector<BenchRow> benchSampler() {
     rows.push_back(preprocessRow("sampler/preprocess 69k triangles", plain));
     rows.push_back(preprocessRow("sampler/preprocess 202k triangles", groomOf(dragonRings, {})));
     rows.push_back(preprocessRow("sampler/preprocess 1,087k triangles", groomOf(buddhaRings, {})));
+    rows.push_back(productionPreprocessRow("sampler/hair roots, preprocess, 69k triangles, no map", plain));
     for (const int size : {512, 1024, 2048}) {
         const Groom groom = groomOf(bunnyRings, noise(size, 0.5));
         const std::string name = rounded(size, "%.0f") + "^2 noise map, 69k triangles";
         rows.push_back(samplingRow("sampler/" + name, groom, 100.0f));
         rows.push_back(preprocessRow("sampler/preprocess " + name, groom));
     }
-    for (const double mean : {0.75, 0.5, 0.25, 0.1}) rows.push_back(rejectionRow(mean));
+    const Groom dragon = groomOf(dragonRings, {}), buddha = groomOf(buddhaRings, {});
+    rows.push_back(rejectionRow("sampler/69k triangles, no map, against rejection", plain));
+    rows.push_back(rejectionRow("sampler/202k triangles, no map, against rejection", dragon));
+    rows.push_back(rejectionRow("sampler/1,087k triangles, no map, against rejection", buddha));
+    for (const double mean : {0.75, 0.5, 0.25, 0.1})
+        rows.push_back(
+            rejectionRow("sampler/noise map of mean " + rounded(mean, "%.2f"), groomOf(bunnyRings, noise(1024, mean))));
     rows.push_back(guidesRow());
+    rows.push_back(evenRow(plain, 20000));
     for (const int size : {512, 1024, 2048}) {
         const Groom groom = groomOf(bunnyRings, noise(size, 0.5));
         const std::string map = rounded(size, "%.0f") + "^2 noise map";

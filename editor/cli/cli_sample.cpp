@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/roots.h"
 #include "core/io/safe_file.h"
-#include "core/sampling/sub_triangle_sampler.h"
 #include "core/surface/surface_point.h"
 #include "editor/cli/cli.h"
 
@@ -32,14 +31,6 @@ Row rowOf(const SurfaceMesh& mesh, const SurfacePoint& root) {
     return {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
 }
 
-// As guides are placed.
-Result<std::vector<SurfacePoint>> evenPlaces(const Groom& groom, const DensityLookup& density, const Options& options) {
-    const auto sampler = SubTriangleSampler::build(*groom.mesh, density, {}, progress());
-    if (!sampler) return sampler.error();
-    if (sampler->empty()) return std::vector<SurfacePoint>{};
-    return evenRoots(*groom.mesh, *sampler, options.count, options.seed, progress());
-}
-
 // As hair grows.
 Result<std::vector<SurfacePoint>> hairPlaces(const Groom& groom, const DensityLookup& density, const Options& options) {
     const auto sampler = RootSampler::build(groom, density, progress());
@@ -63,8 +54,9 @@ Outcome sample(const Options& options) {
     if (!groom) return badInput(groom.error());
     if (auto read = addDensity(*groom, options.density); !read) return badInput(read.error());
     const SurfaceMesh& mesh = *groom->mesh;
+    for (Group& group : groom->groups.edit()) group.params.general.even = options.even;
     const DensityLookup density(*groom);
-    auto places = options.even ? evenPlaces(*groom, density, options) : hairPlaces(*groom, density, options);
+    auto places = hairPlaces(*groom, density, options);
     if (!places) return badInput(places.error());
     const std::uint64_t count = places->size();
     if (count == 0) {
@@ -106,7 +98,7 @@ void addSample(CLI::App& app) {
     program->add_option("--density", options->density, "Image that says where hair grows (white: full)");
     program->add_option("--seed", options->seed, "Another seed gives other random places")
         ->check(CLI::Range(0u, 2147483647u));
-    program->add_flag("--even", options->even, "Keeps points apart, as guides are placed");
+    program->add_flag("--even", options->even, "Keeps points apart, as hair with even spacing");
     program->add_option("-o,--output", options->output, "Points to write, NAME.ply")->required();
 }
 

@@ -22,6 +22,8 @@ public:
     float unit() { return randomFloat(m_seed, m_next++, 101); }
     int below(int count) { return std::min(count - 1, static_cast<int>(unit() * static_cast<float>(count))); }
     bool chance(float share) { return unit() < share; }
+    /// Takes no number from the others: parameters that came later leave random grooms as they were.
+    bool chanceApart(float share) { return randomFloat(m_seed, m_next, 102) < share; }
 
 private:
     std::uint32_t m_seed;
@@ -53,7 +55,9 @@ struct Randomise {
     void operator()(const BlockInfo&, Block& block) {
         Block::each(block, *this);
     }
-    void operator()(const ParamInfo&, bool& value) { value = dice.chance(0.5f); }
+    void operator()(const ParamInfo& info, bool& value) {
+        value = info.id == "even" ? dice.chanceApart(0.5f) : dice.chance(0.5f);
+    }
     void operator()(const ParamInfo& info, int& value) { value = static_cast<int>(within(info)); }
     void operator()(const ParamInfo& info, float& value) { value = within(info); }
     void operator()(const ParamInfo& info, Driven& value) { value = {within(info), anyOf(dataMaps)}; }

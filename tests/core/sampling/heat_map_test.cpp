@@ -2,9 +2,11 @@
 // Asked against placed roots: sums, agreement of the sampler with what it is asked for, what smoothing keeps.
 #include "core/sampling/heat_map.h"
 
+#include "core/surface/surface_point.h"
 #include "tests/support/shapes.h"
 
 #include <QTest>
+#include <algorithm>
 #include <numeric>
 
 using namespace whorl;
@@ -27,14 +29,26 @@ Groom halfPlane(int cells) {
     return groom;
 }
 
-SubTriangleSampler samplerOf(const Groom& groom) {
+RootSampler samplerOf(const Groom& groom) {
     Progress progress;
-    return *SubTriangleSampler::build(*groom.mesh, DensityLookup(groom), {}, progress);
+    return *RootSampler::build(groom, DensityLookup(groom), progress);
 }
 
-std::vector<SurfacePoint> rootsOf(const SubTriangleSampler& sampler, std::uint64_t count) {
+// As hair grows, `count` of them.
+std::vector<SurfacePoint> rootsOf(const RootSampler& sampler, std::size_t count) {
+    RootList list;
+    sampler.sample({1.2 * static_cast<double>(count) / sampler.weight(), 1}, {}, list);
+    std::vector<std::size_t> places(list.count());
+    std::iota(places.begin(), places.end(), 0u);
+    std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+        // The order in which more roots come.
+        const auto rank = [&](std::size_t i) {
+            return list.id(i) / sampler.densityOf(sampler.candidate(1, list.id(i)).code);
+        };
+        return rank(a) < rank(b);
+    });
     std::vector<SurfacePoint> roots;
-    for (std::uint64_t i = 0; i < count; ++i) roots.push_back(sampler.stratifiedRoot(i, count, 1));
+    for (std::size_t i = 0; i < count; ++i) roots.push_back(list.point(places[i]));
     return roots;
 }
 
@@ -46,7 +60,7 @@ class HeatMapTest : public QObject {
 private Q_SLOTS:
     void sumsAreTheRoots() {
         const Groom groom = halfPlane(8);
-        const SubTriangleSampler sampler = samplerOf(groom);
+        const RootSampler sampler = samplerOf(groom);
         Progress progress;
         for (const int passes : {0, 1, 7}) {
             const Result<HeatMap> heat = heatMap(*groom.mesh, sampler, rootsOf(sampler, 5000), passes, progress);
@@ -59,7 +73,7 @@ private Q_SLOTS:
 
     void theSamplerPlacesWhatIsAsked() {
         const Groom groom = halfPlane(8);
-        const SubTriangleSampler sampler = samplerOf(groom);
+        const RootSampler sampler = samplerOf(groom);
         Progress progress;
         const Result<HeatMap> heat = heatMap(*groom.mesh, sampler, rootsOf(sampler, 20000), 1, progress);
         QVERIFY(heat.ok());
@@ -69,9 +83,33 @@ private Q_SLOTS:
         }
     }
 
+    void askedIsWhatTheDensityAsks() {
+        // Against the density itself. Pieces are a texel wide: the edges of the paint are half a texel uncertain.
+        const Groom groom = halfPlane(8);
+        const RootSampler sampler = samplerOf(groom);
+        const DensityLookup density(groom);
+        const std::vector<double> shares = sampler.sharesByTriangle(groom.mesh->triangleCount());
+        std::vector<double> expected(shares.size(), 0.0);
+        double total = 0.0;
+        for (std::uint32_t t = 0; t < shares.size(); ++t) {
+            constexpr int n = 60;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; i + j < n; ++j) {
+                    const float u = (static_cast<float>(i) + 0.33f) / n, v = (static_cast<float>(j) + 0.33f) / n;
+                    expected[t] += static_cast<double>(density.at(t, uvAt(*groom.mesh, {t, u, v})));
+                }
+            }
+            total += expected[t];
+        }
+        for (std::size_t t = 0; t < shares.size(); ++t)
+            QVERIFY2(std::abs(shares[t] - expected[t] / total) <
+                         0.05 / static_cast<double>(shares.size()) + 0.03 * shares[t],
+                     qPrintable(QString("%1: %2 %3").arg(t).arg(shares[t]).arg(expected[t] / total)));
+    }
+
     void rootsInTheWrongPlaceShow() {
         const Groom groom = halfPlane(8);
-        const SubTriangleSampler sampler = samplerOf(groom);
+        const RootSampler sampler = samplerOf(groom);
         // All roots on the triangle that is asked for least and has something to ask for.
         Progress progress;
         std::vector<SurfacePoint> roots = rootsOf(sampler, 2000);
@@ -95,7 +133,7 @@ private Q_SLOTS:
 
     void smoothingSpreadsToNeighbours() {
         const Groom groom = makeGroom(testing::plane(6));
-        const SubTriangleSampler sampler = samplerOf(groom);
+        const RootSampler sampler = samplerOf(groom);
         const std::vector<SurfacePoint> roots(600, SurfacePoint{30, 0.3f, 0.3f});
         Progress progress;
         const HeatMap none = *heatMap(*groom.mesh, sampler, roots, 0, progress);
@@ -109,7 +147,7 @@ private Q_SLOTS:
 
     void oddInputs() {
         const Groom groom = makeGroom(testing::plane(2));
-        const SubTriangleSampler sampler = samplerOf(groom);
+        const RootSampler sampler = samplerOf(groom);
         Progress progress;
         const HeatMap empty = *heatMap(*groom.mesh, sampler, {}, 3, progress);
         QCOMPARE(sum(empty.placed), 0.0);
