@@ -3,12 +3,15 @@
 
 #include "core/base/random.h"
 #include "core/sampling/density.h"
+#include "core/sampling/texel_depth.h"
 #include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace whorl::testing {
 
@@ -95,13 +98,7 @@ FineBins::FineBins(const Groom& groom) {
     const DensityLookup density(groom);
     m_firstBin.push_back(0);
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-        const glm::dvec2 scale(density.mapWidth(), density.mapHeight());
-        const glm::dvec2 a = glm::dvec2(mesh.cornerUvs[std::size_t{3} * t]) * scale;
-        const glm::dvec2 b = glm::dvec2(mesh.cornerUvs[std::size_t{3} * t + 1]) * scale - a;
-        const glm::dvec2 c = glm::dvec2(mesh.cornerUvs[std::size_t{3} * t + 2]) * scale - a;
-        const double texels = 0.5 * std::abs(b.x * c.y - b.y * c.x);
-        int depth = 0;
-        while (depth < 8 && texels > std::pow(4.0, depth)) ++depth;
+        const int depth = texelDepth(mesh, t, density.mapWidth(), density.mapHeight(), 8);
         const double area = triangleArea(mesh, t) / std::pow(4.0, depth);
         forCentres(0.0, 0.0, 1.0, depth, [&](double u, double v) {
             const SurfacePoint centre{t, static_cast<float>(u), static_cast<float>(v)};
@@ -115,9 +112,18 @@ FineBins::FineBins(const Groom& groom) {
 }
 
 void FineBins::add(const SurfacePoint& root) {
-    const std::size_t piece =
-        pieceAt(static_cast<double>(root.u), static_cast<double>(root.v), m_depths[root.triangle]);
-    m_found[m_firstBin[root.triangle] + piece] += 1.0;
+    const int depth = m_depths[root.triangle];
+    const std::size_t first = m_firstBin[root.triangle];
+    const auto u = static_cast<double>(root.u), v = static_cast<double>(root.v);
+    std::size_t piece = pieceAt(u, v, depth);
+    // A place is stored in floats: one on the edge of its piece may read as its neighbour's by the last bit.
+    constexpr double bit = 1.2e-7;
+    for (const auto& [du, dv] : {std::pair(bit, 0.0), {-bit, 0.0}, {0.0, bit}, {0.0, -bit}, {bit, bit}, {-bit, -bit}}) {
+        if (m_weights[first + piece] > 0.0) break;
+        const double nu = std::clamp(u + du, 0.0, 1.0), nv = std::clamp(v + dv, 0.0, 1.0 - nu);
+        piece = pieceAt(nu, nv, depth);
+    }
+    m_found[first + piece] += 1.0;
 }
 
 std::uint64_t FineBins::foundWhereNothingGrows() const {

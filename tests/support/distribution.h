@@ -17,7 +17,7 @@ Map painted(Paint paint, int size);
 /// at least 20 are expected. Counts that are too even give a number below zero.
 double chiSquareExcess(const std::vector<double>& expected, const std::vector<double>& found);
 
-/// Every triangle of a groom in equal pieces of at most one texel; expected in each: area x density at its centre.
+/// Every triangle of a groom in the pieces that the samplers look at; expected in each: area x density at its centre.
 class FineBins {
 public:
     explicit FineBins(const Groom& groom);

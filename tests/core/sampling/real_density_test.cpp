@@ -19,7 +19,7 @@ using testing::Paint;
 
 namespace {
 
-constexpr std::uint64_t count = 150000;
+constexpr std::uint64_t count = 300000;
 
 Groom withDensity(SurfaceMesh mesh, Map map) {
     Groom groom = makeGroom(std::move(mesh));
