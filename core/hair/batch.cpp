@@ -106,17 +106,7 @@ void growAtTime(const HairParts& parts, const HairLookups& lookups, float lod, c
                 Progress& progress) {
     const TraitList traits = traitsFor(lookups.traits, batch.roots, lod, progress);
     if (progress.cancelled()) return;
-    const HairSources sources{parts.groom,
-                              batch.roots,
-                              batch.bindings,
-                              traits,
-                              parts.shapes,
-                              lookups.traits.kinkOffset(),
-                              parts.guard ? &*parts.guard : nullptr,
-                              lookups.chain,
-                              parts.clumps,
-                              batch.centres,
-                              batch.order};
+    const HairSources sources = batch.sourcesOf(parts, lookups, traits);
     const GrownHairs grown = layOut(sources, strands);
     evaluateHairs(sources, grown, allOf(grown), strands, progress);
 }

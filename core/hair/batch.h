@@ -66,10 +66,14 @@ struct Batch {
     std::shared_ptr<Strands> strands = std::make_shared<Strands>();
 
     HairSources sourcesOf(const HairParts& parts, const HairLookups& lookups) const {
+        return sourcesOf(parts, lookups, traits);
+    }
+    /// With other traits: those of another time.
+    HairSources sourcesOf(const HairParts& parts, const HairLookups& lookups, const TraitList& others) const {
         return {parts.groom,
                 roots,
                 bindings,
-                traits,
+                others,
                 parts.shapes,
                 lookups.traits.kinkOffset(),
                 parts.guard ? &*parts.guard : nullptr,

@@ -9,10 +9,10 @@
 namespace whorl {
 namespace {
 
-/// The place of the skin in the middle of each texel; triangle SurfaceWalk::none where there is none.
+/// The place of the skin in the middle of each texel; triangle noTriangle where there is none.
 std::vector<SurfacePoint> placesOfTexels(const SurfaceMesh& mesh, int size) {
     std::vector<SurfacePoint> places(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
-                                     {SurfaceWalk::none, 0.0f, 0.0f});
+                                     {noTriangle, 0.0f, 0.0f});
     const auto texels = static_cast<double>(size);
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
         glm::dvec2 p[3];
@@ -55,7 +55,7 @@ Result<LicBake> bakeLic(const LicReference& lic, const LicOptions& options, int 
     std::vector<float> values(count, -1.0f), covers(count, -1.0f);  // below zero: not known
     parallelFor(side, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first * side; i < last * side && !progress.cancelled(); ++i) {
-            if (places[i].triangle == SurfaceWalk::none) continue;
+            if (places[i].triangle == noTriangle) continue;
             const auto value = lic.at(places[i], options);
             values[i] = value.value_or(0.0f);
             covers[i] = value ? (cover ? std::clamp(cover(places[i]), 0.0f, 1.0f) : 1.0f) : 0.0f;

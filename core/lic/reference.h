@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/field/direction_field.h"
-#include "core/surface/adjacency.h"
+#include "core/surface/surface_walk.h"
 
 #include <memory>
 #include <optional>

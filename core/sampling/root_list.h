@@ -33,6 +33,15 @@ public:
 
 private:
     friend class RootSampler;
+    /// For what has room.
+    void push(std::uint32_t id, const SurfacePoint& point, std::uint32_t unit) {
+        m_ids[m_count] = id;
+        m_triangles[m_count] = point.triangle;
+        m_u[m_count] = point.u;
+        m_v[m_count] = point.v;
+        m_units.push_back(unit);
+        ++m_count;
+    }
     std::unique_ptr<std::uint32_t[]> m_ids, m_triangles;
     std::unique_ptr<float[]> m_u, m_v;
     std::vector<std::uint32_t> m_units;  // empty, or as many

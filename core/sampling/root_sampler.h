@@ -121,6 +121,8 @@ private:
                      std::vector<std::size_t>& ends) const;
     void sampleEven(const RootRequest& request, std::span<const RootRange> ranges, RootList& roots,
                     std::vector<std::size_t>& ends) const;
+    // By place on the curve and share of its triangle.
+    std::uint8_t codeAt(std::size_t place, std::uint32_t share) const;
     Candidate evenCandidate(std::uint32_t seed, std::uint32_t rank) const;
     std::shared_ptr<const EvenSequence> evenFor(const RootRequest& request, bool alone, Progress& progress) const;
     double weightOf(std::size_t place) const;

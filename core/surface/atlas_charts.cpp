@@ -2,6 +2,7 @@
 #include "core/surface/atlas_charts.h"
 
 #include "core/base/random.h"
+#include "core/surface/adjacency.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,7 +15,7 @@
 namespace whorl::atlas {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = noTriangle;
 // A chart grows while triangles lean at most this far from the mean normal, and keeps those whose shadow is at least
 // `leastShadow` of their area: what leans more would get too few texels.
 const double coneCosine = std::cos(50.0 * std::numbers::pi / 180.0);
@@ -23,38 +24,6 @@ constexpr double leastShadow = 0.5;
 constexpr std::size_t mostWide = 256;
 
 using Neighbours = std::vector<std::array<std::uint32_t, 3>>;
-
-// The triangle beyond each edge; `none` at borders and where more than two meet.
-Neighbours findNeighbours(const SurfaceMesh& mesh) {
-    struct Edge {
-        std::uint64_t key;
-        std::uint32_t triangle;
-        std::uint32_t side;
-    };
-    std::vector<Edge> edges;
-    edges.reserve(mesh.triangles.size() * 3);
-    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = mesh.triangles[t][static_cast<int>(k)];
-            const std::uint32_t b = mesh.triangles[t][static_cast<int>((k + 1) % 3)];
-            edges.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), t, k});
-        }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return a.key != b.key ? a.key < b.key : a.triangle != b.triangle ? a.triangle < b.triangle : a.side < b.side;
-    });
-    Neighbours neighbours(mesh.triangles.size(), {none, none, none});
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end].key == edges[i].key) ++end;
-        if (end - i == 2) {
-            neighbours[edges[i].triangle][edges[i].side] = edges[i + 1].triangle;
-            neighbours[edges[i + 1].triangle][edges[i + 1].side] = edges[i].triangle;
-        }
-        i = end;
-    }
-    return neighbours;
-}
 
 using Flat = std::array<glm::dvec2, 3>;
 
@@ -147,7 +116,7 @@ private:
 
 class Cutter {
 public:
-    explicit Cutter(const SurfaceMesh& mesh) : m_mesh(mesh), m_neighbours(findNeighbours(mesh)) {
+    explicit Cutter(const SurfaceMesh& mesh) : m_mesh(mesh), m_neighbours(trianglesAcross(mesh)) {
         m_areaVectors.reserve(mesh.triangles.size());
         for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
             const glm::dvec3 a = corner(t, 0);

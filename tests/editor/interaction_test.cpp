@@ -35,22 +35,8 @@
 
 using namespace whorl;
 
-class InteractionTest : public QObject {
+class InteractionTest : public QObject, private testing::WindowFixture {
     Q_OBJECT
-
-    std::filesystem::path m_folder;
-    std::filesystem::path m_file;
-    std::unique_ptr<MainWindow> m_window;
-
-    Document& document() { return m_window->document(); }
-    Viewport& view() { return *m_window->viewport(); }
-    template <class T>
-    T* find(const char* name) {
-        T* found = m_window->findChild<T*>(name);
-        if (!found) qWarning("no widget %s", name);
-        return found;
-    }
-    QPoint centre() { return view().rect().center(); }
 
     void sendPen(QEvent::Type type, QPoint at, double pressure, Qt::MouseButton button = Qt::LeftButton) {
         static const QPointingDevice pen("pen", 17, QInputDevice::DeviceType::Stylus, QPointingDevice::PointerType::Pen,
@@ -84,10 +70,7 @@ private Q_SLOTS:
         QVERIFY(m_window->files().open(m_file));
     }
 
-    void cleanup() {
-        if (m_window) m_window->autosave().discard();
-        m_window.reset();
-    }
+    void cleanup() { close(); }
 
     void penPressureMakesStrokesStronger() {
         m_window->actions().get("tool.comb").trigger();

@@ -16,20 +16,8 @@
 
 using namespace whorl;
 
-class LookTest : public QObject {
+class LookTest : public QObject, private testing::WindowFixture {
     Q_OBJECT
-
-    std::filesystem::path m_folder;
-    std::filesystem::path m_file;
-    std::unique_ptr<MainWindow> m_window;
-
-    Document& document() { return m_window->document(); }
-    Viewport& view() { return *m_window->viewport(); }
-    template <class T>
-    T* find(const char* name) {
-        return m_window->findChild<T*>(name);
-    }
-    QPoint centre() { return view().rect().center(); }
 
 private Q_SLOTS:
     void initTestCase() {
@@ -48,10 +36,7 @@ private Q_SLOTS:
         QVERIFY(m_window->files().open(m_file));
     }
 
-    void cleanup() {
-        if (m_window) m_window->autosave().discard();
-        m_window.reset();
-    }
+    void cleanup() { close(); }
 
     void aClickedHairSaysWhyItIsSo() {
         QVERIFY(testing::settle(*m_window));

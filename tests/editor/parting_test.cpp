@@ -15,18 +15,9 @@
 
 using namespace whorl;
 
-class PartingTest : public QObject {
+class PartingTest : public QObject, private testing::WindowFixture {
     Q_OBJECT
 
-    std::filesystem::path m_folder;
-    std::filesystem::path m_file;
-    std::unique_ptr<MainWindow> m_window;
-
-    Document& document() { return m_window->document(); }
-    Viewport& view() { return *m_window->viewport(); }
-    QPoint at(double x, double y) {
-        return {static_cast<int>(view().width() * x), static_cast<int>(view().height() * y)};
-    }
     std::size_t partings() { return document().groom().partings->size(); }
 
 private Q_SLOTS:
@@ -62,10 +53,7 @@ private Q_SLOTS:
         QCOMPARE(m_window->state().brush()->id, std::string_view("parting"));
     }
 
-    void cleanup() {
-        if (m_window) m_window->autosave().discard();
-        m_window.reset();
-    }
+    void cleanup() { close(); }
 
     void drawsWhileDraggingAndKeepsOneStep() {
         const Groom before = document().committed();

@@ -2,6 +2,7 @@
 // The real window for tests: own settings, own journals, a pointer that draws strokes.
 #pragma once
 
+#include "editor/app/autosave.h"
 #include "editor/app/document.h"
 #include "editor/app/main_window.h"
 #include "editor/app/theme.h"
@@ -86,5 +87,30 @@ inline void drag(QWidget& widget, const QList<QPoint>& points, Qt::KeyboardModif
     }
     if (release) QTest::mouseRelease(&widget, button, modifiers, points.back());
 }
+
+/// What tests in the window share: its file and its parts.
+class WindowFixture {
+protected:
+    std::filesystem::path m_folder;
+    std::filesystem::path m_file;
+    std::unique_ptr<MainWindow> m_window;
+
+    Document& document() { return m_window->document(); }
+    Viewport& view() { return *m_window->viewport(); }
+    QPoint at(double x, double y) {
+        return {static_cast<int>(view().width() * x), static_cast<int>(view().height() * y)};
+    }
+    QPoint centre() { return view().rect().center(); }
+    template <class T>
+    T* find(const char* name) {
+        T* found = m_window->findChild<T*>(name);
+        if (!found) qWarning("no widget %s", name);
+        return found;
+    }
+    void close() {
+        if (m_window) m_window->autosave().discard();
+        m_window.reset();
+    }
+};
 
 }  // namespace whorl::testing

@@ -145,4 +145,16 @@ double FineBins::chiSquareExcess() const {
     return testing::chiSquareExcess(expected, m_found);
 }
 
+Groom densityGroom(SurfaceMesh mesh, Map map) {
+    Groom groom = makeGroom(std::move(mesh));
+    groom.maps.set("density", std::move(map));
+    groom.groups.edit()[0].params.general.density = {1.0f, "density"};
+    return groom;
+}
+
+RootSampler samplerOf(const Groom& groom) {
+    Progress progress;
+    return *RootSampler::build(groom, DensityLookup(groom), progress);
+}
+
 }  // namespace whorl::testing

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/model/groom.h"
+#include "core/sampling/root_sampler.h"
 
 #include <cstdint>
 #include <vector>
@@ -36,5 +37,10 @@ private:
     std::vector<double> m_found;
     double m_total = 0.0;
 };
+
+/// A new groom on `mesh` whose density is `map`.
+Groom densityGroom(SurfaceMesh mesh, Map map);
+/// The sampler of its hair.
+RootSampler samplerOf(const Groom& groom);
 
 }  // namespace whorl::testing

@@ -89,7 +89,7 @@ class CliTest : public QObject {
 private Q_SLOTS:
     void initTestCase() {
         m_program = qEnvironmentVariable("WHORL_BIN") + "/whorl-cli";
-        if (!QFile::exists(m_program)) QSKIP("whorl-cli is not built.");
+        QVERIFY2(QFile::exists(m_program), "WHORL_BIN does not name the folder of whorl-cli.");
         meshFile();
     }
 

@@ -8,7 +8,7 @@
 #include "core/io/json_text.h"
 #include "core/io/package_files.h"
 #include "core/io/safe_file.h"
-#include "tests/support/shapes.h"
+#include "tests/support/packages.h"
 
 #include <QTest>
 #include <cerrno>
@@ -16,43 +16,17 @@
 
 using namespace whorl;
 namespace fs = std::filesystem;
+using testing::entries;
+using testing::put;
+using testing::rewrite;
+using testing::smallGroom;
+using testing::textOf;
 
 namespace {
-
-std::string textOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-std::size_t entries(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
-Groom smallGroom(int hairs = 300) {
-    Groom groom = testing::groomOn(testing::sphere(8, 12), 20, 6);
-    groom.counts.edit().hairs = hairs;
-    groom.groups.edit()[0].params.general.keepOutside = false;  // quick: no distance field
-    return groom;
-}
 
 std::uint64_t digestOf(const Groom& groom) {
     Progress progress;
     return *hairDigest(groom, 1, std::nullopt, progress);
-}
-
-/// groom.json with one thing changed and the right checksum.
-template <class Change>
-void rewrite(const fs::path& package, Change&& change) {
-    nlohmann::json manifest = *parseJson(textOf(package / "groom.json"), "groom.json");
-    change(manifest);
-    manifest.erase("checksum");
-    const std::string text = jsonText(manifest);
-    manifest["checksum"] = hexDigest(hashBytes(text.data(), text.size()));
-    put(package / "groom.json", jsonText(manifest, 1));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "core/io/safe_file.h"
 
 #include "core/io/file_steps.h"
-#include "tests/support/shapes.h"
+#include "tests/support/packages.h"
 
 #include <sched.h>
 #include <sys/mount.h>
@@ -18,21 +18,11 @@
 
 using namespace whorl;
 namespace fs = std::filesystem;
+using testing::entries;
+using testing::put;
+using testing::textOf;
 
 namespace {
-
-std::string textOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-std::size_t entries(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
 
 Result<void> save(const fs::path& file, const std::string& text) {
     auto safe = SafeFile::create(file);

@@ -6,7 +6,7 @@
 #include "core/io/json_text.h"
 #include "tests/core/procedural/procedural_hair.h"
 #include "tests/support/documents.h"
-#include "tests/support/shapes.h"
+#include "tests/support/packages.h"
 
 #include <QTest>
 #include <atomic>
@@ -18,6 +18,10 @@
 using namespace whorl;
 using namespace whorl::testing;
 namespace fs = std::filesystem;
+using testing::put;
+using testing::rewrite;
+using testing::smallGroom;
+using testing::textOf;
 
 namespace {
 
@@ -58,33 +62,6 @@ void operator delete[](void* memory, std::size_t) noexcept {
 }
 
 namespace {
-
-std::string textOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-Groom smallGroom() {
-    Groom groom = groomOn(sphere(8, 12), 20, 6);
-    groom.counts.edit().hairs = 300;
-    groom.groups.edit()[0].params.general.keepOutside = false;
-    return groom;
-}
-
-/// groom.json with one thing changed and the right checksum.
-template <class Change>
-void rewrite(const fs::path& package, Change&& change) {
-    nlohmann::json manifest = *parseJson(textOf(package / "groom.json"), "groom.json");
-    change(manifest);
-    manifest.erase("checksum");
-    const std::string text = jsonText(manifest);
-    manifest["checksum"] = hexDigest(hashBytes(text.data(), text.size()));
-    put(package / "groom.json", jsonText(manifest, 1));
-}
 
 /// Refused with a sentence that names the file.
 bool refused(const fs::path& path) {

@@ -19,22 +19,14 @@
 using namespace whorl;
 using testing::Paint;
 using testing::painted;
+using testing::samplerOf;
 
 namespace {
 
 Groom evenGroom(SurfaceMesh mesh, Map map, bool even = true) {
-    Groom groom = makeGroom(std::move(mesh));
-    groom.maps.set("density", std::move(map));
-    groom.groups.edit()[0].params.general.density = {1.0f, "density"};
+    Groom groom = testing::densityGroom(std::move(mesh), std::move(map));
     groom.groups.edit()[0].params.general.even = even;
     return groom;
-}
-
-RootSampler build(const Groom& groom) {
-    Progress progress;
-    auto sampler = RootSampler::build(groom, DensityLookup(groom), progress);
-    if (!sampler) qFatal("not built");
-    return std::move(*sampler);
 }
 
 std::vector<HairRoot> rootsOf(const Groom& groom, const RootSampler& sampler, double hairs) {
@@ -75,7 +67,7 @@ private Q_SLOTS:
     void everyBeginningKeepsApart() {
         const Groom even = evenGroom(testing::sphere(60, 90), Map(8, 8, 1, TexelFormat::U8, 1.0f));
         const Groom plain = evenGroom(testing::sphere(60, 90), Map(8, 8, 1, TexelFormat::U8, 1.0f), false);
-        const RootSampler a = build(even), b = build(plain);
+        const RootSampler a = samplerOf(even), b = samplerOf(plain);
         const double area = areaOf(*even.mesh);
         for (const double count : {60.0, 300.0, 1234.0, 5000.0, 20000.0}) {
             const std::vector<HairRoot> roots = rootsOf(even, a, count);
@@ -100,7 +92,7 @@ private Q_SLOTS:
     void theDensityIsKept() {
         QFETCH(int, paint);
         const Groom groom = evenGroom(testing::sphere(30, 40), painted(static_cast<Paint>(paint), 128));
-        const RootSampler sampler = build(groom);
+        const RootSampler sampler = samplerOf(groom);
         testing::FineBins bins(groom);
         const std::vector<HairRoot> roots = rootsOf(groom, sampler, 100000.0);
         QVERIFY2(std::abs(static_cast<double>(roots.size()) - 100000.0) < 1000.0,
@@ -116,7 +108,7 @@ private Q_SLOTS:
     void countsVaryLittle() {
         // Boxes of 32 on a plane: variance over mean, for several beginnings.
         const Groom groom = evenGroom(testing::plane(12), Map(8, 8, 1, TexelFormat::U8, 1.0f));
-        const RootSampler sampler = build(groom);
+        const RootSampler sampler = samplerOf(groom);
         for (const double count : {2048.0, 3000.0, 8192.0, 20000.0}) {
             const int cells = static_cast<int>(std::lround(std::sqrt(count / 32.0)));
             std::vector<double> boxes(static_cast<std::size_t>(cells * cells), 0.0);
@@ -136,7 +128,7 @@ private Q_SLOTS:
 
     void fewerAreASubsetAndPartsAreAPartition() {
         const Groom groom = evenGroom(testing::sphere(20, 30), painted(Paint::Ramp, 128));
-        const RootSampler sampler = build(groom);
+        const RootSampler sampler = samplerOf(groom);
         const auto ids = [](const std::vector<HairRoot>& roots) {
             std::map<std::uint32_t, SurfacePoint> places;
             for (const HairRoot& root : roots) places[root.id] = root.point;
@@ -144,7 +136,7 @@ private Q_SLOTS:
         };
         const auto all = ids(rootsOf(groom, sampler, 9000.0));
         for (const double count : {8999.0, 3000.0, 100.0}) {
-            for (const auto& [id, point] : ids(rootsOf(groom, build(groom), count))) {
+            for (const auto& [id, point] : ids(rootsOf(groom, samplerOf(groom), count))) {
                 QVERIFY(all.contains(id) && all.at(id) == point);
                 QVERIFY((id & evenId) != 0 && sampler.candidate(1, id).point == point);
             }
@@ -165,7 +157,7 @@ private Q_SLOTS:
 
     void theSequenceIsTheSameHoweverItIsMade() {
         const Groom groom = evenGroom(testing::sphere(20, 30), painted(Paint::White, 8));
-        const RootSampler sampler = build(groom);
+        const RootSampler sampler = samplerOf(groom);
         Progress progress;
         const EvenSequence reference(*groom.mesh, sampler.curve(), 3, 5000, true, progress);
         QCOMPARE(reference.count(), 5000u);
@@ -233,7 +225,7 @@ private Q_SLOTS:
         Groom after = before;
         for (int y = 30; y < 60; ++y)
             for (int x = 40; x < 70; ++x) after.maps.edit("density")->setTexel(x, y, 0, y < 45 ? 1.0f : 0.0f);
-        const RootSampler a = build(before), b = build(after);
+        const RootSampler a = samplerOf(before), b = samplerOf(after);
         Progress progress;
         const auto outside = [&](const Groom& groom, const RootSampler& sampler) {
             std::map<std::uint32_t, SurfacePoint> places;

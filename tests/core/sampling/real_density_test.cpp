@@ -15,18 +15,13 @@
 #include <map>
 
 using namespace whorl;
+using testing::densityGroom;
 using testing::Paint;
+using testing::samplerOf;
 
 namespace {
 
 constexpr std::uint64_t count = 300000;
-
-Groom withDensity(SurfaceMesh mesh, Map map) {
-    Groom groom = makeGroom(std::move(mesh));
-    groom.maps.set("density", std::move(map));
-    groom.groups.edit()[0].params.general.density = {1.0f, "density"};
-    return groom;
-}
 
 // Soft round spots at random, as a brush leaves them, on black.
 Map spots(int size) {
@@ -60,13 +55,6 @@ std::vector<HairRoot> hairs(const Groom& groom, const RootSampler& sampler, doub
     return makeRoots({*groom.mesh, sampler, DensityLookup(groom), {wanted / sampler.weight(), seed}}, {}, progress);
 }
 
-RootSampler build(const Groom& groom) {
-    Progress progress;
-    auto sampler = RootSampler::build(groom, DensityLookup(groom), progress);
-    if (!sampler) qFatal("not built");
-    return std::move(*sampler);
-}
-
 void checkReference(const Groom& groom) {
     Progress progress;
     const auto sampler = SubTriangleSampler::build(*groom.mesh, DensityLookup(groom), {}, progress);
@@ -83,7 +71,7 @@ void checkReference(const Groom& groom) {
 }
 
 void checkHair(const Groom& groom, const char* what) {
-    const RootSampler sampler = build(groom);
+    const RootSampler sampler = samplerOf(groom);
     testing::FineBins bins(groom);
     const DensityLookup density(groom);
     const std::vector<HairRoot> roots = hairs(groom, sampler, static_cast<double>(count), 3);
@@ -156,10 +144,10 @@ private Q_SLOTS:
         Progress progress;
         auto imported = importMesh(*path, progress);
         QVERIFY(imported.ok());
-        Groom groom = withDensity(std::move(imported->mesh), mapNamed(map));
+        Groom groom = densityGroom(std::move(imported->mesh), mapNamed(map));
         checkReference(groom);
         checkHair(groom, "hair");
-        const RootSampler sampler = build(groom);
+        const RootSampler sampler = samplerOf(groom);
         // Any prefix is spread as well as all: chance would give 1. Where the density falls off, thinning adds a
         // little; noise finer than hairs are apart stays chance in part.
         const double most = map == "white" ? 0.25 : 0.3;
@@ -188,7 +176,7 @@ private Q_SLOTS:
         for (Group& group : groom.groups.edit()) group.params.general.even = false;
         checkHair(groom, "hair");
         for (const double wanted : {2000.0, 20000.0}) {
-            const double spread = spreadOfCounts(groom, build(groom), wanted, 60.0);
+            const double spread = spreadOfCounts(groom, samplerOf(groom), wanted, 60.0);
             QVERIFY2(spread <= 0.25, qPrintable(QString("%1 hairs: %2").arg(wanted).arg(spread)));
         }
         for (Group& group : groom.groups.edit()) group.params.general.even = true;

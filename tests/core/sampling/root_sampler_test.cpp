@@ -17,24 +17,12 @@
 #include <set>
 
 using namespace whorl;
+using testing::densityGroom;
 using testing::Paint;
 using testing::painted;
+using testing::samplerOf;
 
 namespace {
-
-Groom groomWith(SurfaceMesh mesh, Map map) {
-    Groom groom = makeGroom(std::move(mesh));
-    groom.maps.set("density", std::move(map));
-    groom.groups.edit()[0].params.general.density = {1.0f, "density"};
-    return groom;
-}
-
-RootSampler build(const Groom& groom) {
-    Progress progress;
-    auto sampler = RootSampler::build(groom, DensityLookup(groom), progress);
-    if (!sampler) qFatal("not built");
-    return std::move(*sampler);
-}
 
 struct Root {
     std::uint32_t id;
@@ -130,8 +118,8 @@ private Q_SLOTS:
 
     void theSweepFindsWhatPlainArithmeticSays() {
         for (const Paint paint : {Paint::White, Paint::Noise, Paint::Blot}) {
-            const Groom groom = groomWith(testing::sphere(9, 14), painted(paint, 64));
-            const RootSampler sampler = build(groom);
+            const Groom groom = densityGroom(testing::sphere(9, 14), painted(paint, 64));
+            const RootSampler sampler = samplerOf(groom);
             for (const double count : {1.0, 30.0, 2000.0, 50000.0}) {
                 const RootRequest request{count / sampler.weight(), 3};
                 std::vector<Root> expected;
@@ -160,8 +148,8 @@ private Q_SLOTS:
     }
     void rootsFollowTheDensity() {
         QFETCH(int, paint);
-        const Groom groom = groomWith(testing::sphere(30, 40), painted(static_cast<Paint>(paint), 128));
-        const RootSampler sampler = build(groom);
+        const Groom groom = densityGroom(testing::sphere(30, 40), painted(static_cast<Paint>(paint), 128));
+        const RootSampler sampler = samplerOf(groom);
         testing::FineBins bins(groom);
         // One byte a piece: a two-hundredth of what the density is.
         QVERIFY(std::abs(sampler.weight() * [&] {
@@ -179,8 +167,8 @@ private Q_SLOTS:
 
     void countsVaryLessThanChance() {
         for (const Paint paint : {Paint::White, Paint::Ramp}) {
-            const Groom groom = groomWith(testing::plane(12), painted(paint, 64));
-            const RootSampler sampler = build(groom);
+            const Groom groom = densityGroom(testing::plane(12), painted(paint, 64));
+            const RootSampler sampler = samplerOf(groom);
             for (const double count : {1024.0, 4096.0, 16384.0, 65536.0}) {
                 for (const double perBox : {16.0, 32.0, 64.0}) {
                     const double spread =
@@ -190,14 +178,14 @@ private Q_SLOTS:
             }
         }
         // Noise finer than hairs are apart stays chance in part.
-        const Groom groom = groomWith(testing::plane(12), painted(Paint::Noise, 256));
-        const double spread = spreadOfCounts(groom, build(groom), 16384.0, 22);
+        const Groom groom = densityGroom(testing::plane(12), painted(Paint::Noise, 256));
+        const double spread = spreadOfCounts(groom, samplerOf(groom), 16384.0, 22);
         QVERIFY2(spread < 0.45, qPrintable(QString::number(spread)));
     }
 
     void fewerAreAnExactSubsetOfMore() {
-        const Groom groom = groomWith(testing::sphere(20, 30), painted(Paint::Noise, 128));
-        const RootSampler sampler = build(groom);
+        const Groom groom = densityGroom(testing::sphere(20, 30), painted(Paint::Noise, 128));
+        const RootSampler sampler = samplerOf(groom);
         std::map<std::uint32_t, SurfacePoint> more;
         for (const Root& root : hairs(sampler, 40000.0)) more[root.id] = root.point;
         for (const double count : {39999.0, 20000.0, 5000.0, 625.0, 1.0, 0.0}) {
@@ -216,7 +204,7 @@ private Q_SLOTS:
         for (const float density : {1.0f, 0.37f, 12.5f}) {
             Groom groom = makeGroom(testing::sphere(7, 9));
             groom.groups.edit()[0].params.general.density.value = density;
-            const RootSampler sampler = build(groom);
+            const RootSampler sampler = samplerOf(groom);
             for (const int count : {0, 1, 2, 17, 1000, 99999}) {
                 groom.counts.edit().seed = count;
                 groom.counts.edit().hairs = count;
@@ -228,8 +216,8 @@ private Q_SLOTS:
 
     void theNumberIsExactWhereItIsCounted() {
         for (const Paint paint : {Paint::Noise, Paint::Ramp, Paint::Checks, Paint::Blot}) {
-            Groom groom = groomWith(testing::sphere(20, 30), painted(paint, 128));
-            const RootSampler sampler = build(groom);
+            Groom groom = densityGroom(testing::sphere(20, 30), painted(paint, 128));
+            const RootSampler sampler = samplerOf(groom);
             std::vector<Root> fewer;
             for (const int count : {0, 1, 2, 5, 100, 2500, 10000, 60000}) {
                 groom.counts.edit().hairs = count;
@@ -261,7 +249,7 @@ private Q_SLOTS:
                     map.setTexel(x, y, 0,
                                  painted(Paint::Noise, 1).texel(0, 0) * 0.1f + 0.3f +
                                      0.001f * static_cast<float>((x * 7 + y * 13) % 97));
-            Groom before = groomWith(testing::plane(2), map);
+            Groom before = densityGroom(testing::plane(2), map);
             before.counts.edit().hairs = 30000;
             for (const float paint : {0.0f, 1.0f}) {
                 Groom after = before;
@@ -271,7 +259,7 @@ private Q_SLOTS:
                 for (int y = 70; y < 110; ++y)
                     for (int x = 80; x < 120; ++x) after.maps.edit("density")->setTexel(x, y, 0, paint);
                 after.counts.edit().densityTotal = densityTotalOf(before);
-                const RootSampler a = build(before), b = build(after);
+                const RootSampler a = samplerOf(before), b = samplerOf(after);
                 const auto outside = [&](const Groom& groom, const RootSampler& sampler) {
                     std::vector<Root> roots = rootsOf(sampler, requestFor(*groom.counts, sampler, 30000.0));
                     std::erase_if(roots, [&](const Root& root) { return inside(uvAt(*groom.mesh, root.point)); });
@@ -287,15 +275,15 @@ private Q_SLOTS:
     }
 
     void nothingGrowsInTheBlack() {
-        QVERIFY(build(groomWith(testing::plane(2), Map(8, 8, 1, TexelFormat::U8, 0.0f))).empty());
-        QVERIFY(build(groomWith(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, -1.0f))).empty());
-        QVERIFY(build(groomWith(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, std::nanf("")))).empty());
-        QVERIFY(build(makeGroom(SurfaceMesh{})).empty());
+        QVERIFY(samplerOf(densityGroom(testing::plane(2), Map(8, 8, 1, TexelFormat::U8, 0.0f))).empty());
+        QVERIFY(samplerOf(densityGroom(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, -1.0f))).empty());
+        QVERIFY(samplerOf(densityGroom(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, std::nanf("")))).empty());
+        QVERIFY(samplerOf(makeGroom(SurfaceMesh{})).empty());
         Groom closed = makeGroom(testing::plane(2));
         closed.partSettings.edit()[0].growsHair = false;
-        QVERIFY(build(closed).empty());
-        const Groom groom = groomWith(testing::sphere(20, 30), painted(Paint::Blot, 256));
-        const RootSampler sampler = build(groom);
+        QVERIFY(samplerOf(closed).empty());
+        const Groom groom = densityGroom(testing::sphere(20, 30), painted(Paint::Blot, 256));
+        const RootSampler sampler = samplerOf(groom);
         const DensityLookup density(groom);
         const std::vector<Root> roots = hairs(sampler, 50000.0);
         QVERIFY(roots.size() > 45000);
@@ -311,14 +299,14 @@ private Q_SLOTS:
         for (const HairRoot& root : makeRoots(source, {}, progress))
             QVERIFY(density.at(root.point.triangle, root.uv) > 0.0f);
         // Paint so thin that a byte would round it away still grows.
-        const RootSampler thin = build(groomWith(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, 1e-7f)));
+        const RootSampler thin = samplerOf(densityGroom(testing::plane(2), Map(8, 8, 1, TexelFormat::F32, 1e-7f)));
         QVERIFY(!thin.empty() && hairs(thin, 1000.0).size() == 1000);
     }
 
     void rootsStayOnTheirTriangles() {
         for (const float size : {1e-12f, 1e-3f, 1e6f, 1e15f, 1e30f}) {
-            const Groom groom = groomWith(testing::plane(2, size), painted(Paint::Noise, 32));
-            const std::vector<Root> roots = hairs(build(groom), 5000.0);
+            const Groom groom = densityGroom(testing::plane(2, size), painted(Paint::Noise, 32));
+            const std::vector<Root> roots = hairs(samplerOf(groom), 5000.0);
             QVERIFY(roots.size() > 4800);
             for (const Root& root : roots) {
                 const SurfacePoint& p = root.point;
@@ -328,14 +316,14 @@ private Q_SLOTS:
     }
 
     void sameBytesOnEveryLevelThreadAndSplit() {
-        const Groom groom = groomWith(testing::sphere(25, 40), painted(Paint::Noise, 256));
+        const Groom groom = densityGroom(testing::sphere(25, 40), painted(Paint::Noise, 256));
         setSimdLevel(SimdLevel::Plain);
-        const RootSampler plain = build(groom);
+        const RootSampler plain = samplerOf(groom);
         const std::vector<Root> expected = hairs(plain, 30000.0);
         for (const SimdLevel level : {SimdLevel::Avx2, SimdLevel::Avx512}) {
             setSimdLevel(level);
             const ThreadLimit limit(level == SimdLevel::Avx2 ? 1 : 2);
-            const RootSampler sampler = build(groom);
+            const RootSampler sampler = samplerOf(groom);
             QCOMPARE(sampler.weight(), plain.weight());
             QVERIFY(hairs(sampler, 30000.0) == expected);
         }
@@ -371,7 +359,7 @@ private Q_SLOTS:
         mesh.parts = {{"head", 0, head}, {"floor", head, 1}};
         Groom groom = makeGroom(std::move(mesh));
         groom.partSettings.edit()[1].growsHair = false;
-        const std::vector<Root> roots = hairs(build(groom), 100000.0);
+        const std::vector<Root> roots = hairs(samplerOf(groom), 100000.0);
         QCOMPARE(roots.size(), std::size_t{100000});
         for (const Root& root : roots) QVERIFY(root.point.triangle < head);
     }
@@ -381,16 +369,16 @@ private Q_SLOTS:
         mesh.parts = {{"skin", 0, 20}, {"eyes", 20, 12}};
         Groom groom = makeGroom(std::move(mesh));
         const RootRequest request{4000.0, 1};
-        std::vector<Root> all = rootsOf(build(groom), request);
+        std::vector<Root> all = rootsOf(samplerOf(groom), request);
         groom.partSettings.edit()[1].growsHair = false;
         std::erase_if(all, [](const Root& root) { return root.point.triangle >= 20; });
-        QVERIFY(rootsOf(build(groom), request) == all);
+        QVERIFY(rootsOf(samplerOf(groom), request) == all);
     }
 
     void cancelledWorkSaysSo() {
         Progress progress;
         progress.cancel();
-        const Groom groom = groomWith(testing::plane(4), painted(Paint::Noise, 64));
+        const Groom groom = densityGroom(testing::plane(4), painted(Paint::Noise, 64));
         const auto sampler = RootSampler::build(groom, DensityLookup(groom), progress);
         QVERIFY(!sampler.ok() && sampler.error().cancelled);
     }

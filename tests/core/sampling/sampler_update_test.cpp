@@ -13,6 +13,8 @@
 #include <cmath>
 
 using namespace whorl;
+using testing::densityGroom;
+using testing::samplerOf;
 
 namespace {
 
@@ -28,20 +30,6 @@ void square(Map& map, std::uint64_t step) {
     for (int y = y0; y < std::min(y0 + size, map.height()); ++y)
         for (int x = x0; x < std::min(x0 + size, map.width()); ++x)
             for (int c = 0; c < map.channels(); ++c) map.setTexel(x, y, c, values[randomBits(3, step, 4) % 4]);
-}
-
-Groom groomWith(SurfaceMesh mesh, Map map) {
-    Groom groom = makeGroom(std::move(mesh));
-    groom.maps.set("density", std::move(map));
-    groom.groups.edit()[0].params.general.density = {1.0f, "density"};
-    return groom;
-}
-
-RootSampler build(const Groom& groom) {
-    Progress progress;
-    auto sampler = RootSampler::build(groom, DensityLookup(groom), progress);
-    if (!sampler) qFatal("not built");
-    return std::move(*sampler);
 }
 
 bool same(const RootSampler& a, const RootSampler& b) {
@@ -95,7 +83,7 @@ private Q_SLOTS:
                             : TexelFormat::U8,
                 0.5f);
         map.flipV = kind == 1;
-        Groom groom = groomWith(mesh, map);
+        Groom groom = densityGroom(mesh, map);
         if (kind == 4) {
             // Two groups: the map of groups is painted too.
             groom.maps.set("groups", Map(64, 64, 1, TexelFormat::U8, 0.0f));
@@ -104,7 +92,7 @@ private Q_SLOTS:
             groom.groups.edit()[1].params.general.density = {0.4f, ""};
             groom.counts.edit().groupMap.name = "groups";
         }
-        RootSampler kept = build(groom);
+        RootSampler kept = samplerOf(groom);
         std::size_t updates = 0, measured = 0;
         for (std::uint64_t step = 0; step < 20; ++step) {
             const Groom before = groom;
@@ -126,13 +114,13 @@ private Q_SLOTS:
             std::vector<std::uint32_t> touched;
             if (!kept.update(groom, density, maps, touched)) {
                 QVERIFY(kind == 2);
-                kept = build(groom);
+                kept = samplerOf(groom);
                 continue;
             }
             ++updates;
             measured += touched.size();
             QVERIFY(std::is_sorted(touched.begin(), touched.end()));
-            const RootSampler fresh = build(groom);
+            const RootSampler fresh = samplerOf(groom);
             QVERIFY2(same(kept, fresh), qPrintable(QString::number(step)));
             // Away from touched triangles every density and group is as it was.
             const DensityLookup then(before);
@@ -176,8 +164,8 @@ private Q_SLOTS:
     }
 
     void severalRangesAreThoseOneByOne() {
-        const Groom groom = groomWith(testing::sphere(20, 30), testing::painted(testing::Paint::Noise, 64));
-        const RootSampler sampler = build(groom);
+        const Groom groom = densityGroom(testing::sphere(20, 30), testing::painted(testing::Paint::Noise, 64));
+        const RootSampler sampler = samplerOf(groom);
         const RootRequest request{3000.0, 5};
         const std::vector<RootRange> ranges{
             {10, 500000000}, {500000000, 500000000}, {900000000, 900000100}, {4000000000u, SurfaceCurve::end}};
