@@ -15,12 +15,12 @@ constexpr const char* usage =
 Result<std::string> combAlong(CommandContext& context, Arguments arguments, Progress& progress) {
     if (!context.hasGroom) return noGroomError();
     GrowAlong how;
-    FieldOptions options;
+    FieldParams params = *context.groom.field;
     while (arguments.size() > 1) {
         const std::string& name = arguments[0];
         float* number = name == "lift"     ? &how.lift
                         : name == "length" ? &how.length
-                        : name == "reach"  ? &options.reach
+                        : name == "reach"  ? &params.reach
                                            : nullptr;
         if (name == "group") {
             const auto group = groupNamed(context, arguments[1]);
@@ -45,7 +45,9 @@ Result<std::string> combAlong(CommandContext& context, Arguments arguments, Prog
         if (points.empty()) return {};
         auto line = tracedParting(*surface, points);
         if (!line) return line.error();
-        strokes.push_back({std::move(*line), 1.0f});
+        FieldStroke stroke;
+        stroke.points = std::move(*line);
+        strokes.push_back(std::move(stroke));
         points.clear();
         return {};
     };
@@ -61,7 +63,7 @@ Result<std::string> combAlong(CommandContext& context, Arguments arguments, Prog
     if (auto done = finish(); !done) return done.error();
     const auto solver = FieldSolver::make(surface, growingTriangles(context.groom), *context.groom.partings, progress);
     if (!solver) return solver.error();
-    const auto field = solver->solve(strokes, options, progress);
+    const auto field = solver->solve(strokes, params, progress);
     if (!field) return field.error();
     if (auto done = growGuidesAlong(context.groom, *surface, *field, how, progress); !done) return done.error();
     return std::string();

@@ -4,6 +4,8 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/model/field_stroke.h"
+#include "core/model/lic_params.h"
 #include "core/model/parting.h"
 #include "core/surface/surface.h"
 
@@ -20,21 +22,6 @@
 // outside the growing area.
 
 namespace whorl {
-
-/// A line on the skin along which hair lies, from root to tip.
-struct FieldStroke {
-    std::vector<SurfacePoint> points;  ///< two or more
-    float weight = 1.0f;               ///< against other strokes and the default; above zero
-};
-
-struct FieldOptions {
-    /// Metres from a stroke over which its influence gives way to the default direction; 0: it never does where there
-    /// is a stroke at all.
-    float reach = 0.0f;
-    glm::vec3 gravity{0.0f, -1.0f, 0.0f};  ///< where default directions hang to; need not be unit
-    /// Metres around a parting within which the default leads away from it.
-    float partingWidth = 0.02f;
-};
 
 /// Where the field turns around a point: +1 a whorl or a star, -1 a saddle.
 struct FieldSingularity {
@@ -74,10 +61,10 @@ public:
 
     /// The field that follows `strokes`, or the default direction where there are none. Points of strokes outside the
     /// growing area have no effect. Fails only when cancelled.
-    Result<DirectionField> solve(std::span<const FieldStroke> strokes, const FieldOptions& options,
+    Result<DirectionField> solve(std::span<const FieldStroke> strokes, const FieldParams& params,
                                  Progress& progress) const;
     /// The default direction alone: downhill along `gravity`, and away from near partings. Not smoothed.
-    DirectionField defaults(const FieldOptions& options) const;
+    DirectionField defaults(const FieldParams& params) const;
 
 private:
     struct State;

@@ -87,18 +87,18 @@ struct FieldSolver::State {
     mutable Factor factor;
 
     /// Direction and how much it counts, 0 to 1, at a vertex.
-    glm::vec3 defaultAt(std::uint32_t at, const FieldOptions& options) const;
+    glm::vec3 defaultAt(std::uint32_t at, const FieldParams& params) const;
     void addWishes(const FieldStroke& stroke, std::vector<Wish>& wishes) const;
     void addWish(const SurfacePoint& point, const glm::vec3& piece, float weight, std::vector<Wish>& wishes) const;
 };
 
-glm::vec3 FieldSolver::State::defaultAt(std::uint32_t at, const FieldOptions& options) const {
+glm::vec3 FieldSolver::State::defaultAt(std::uint32_t at, const FieldParams& params) const {
     const SurfaceMesh& mesh = domain->mesh();
     const glm::vec3& place = mesh.positions[at];
-    const float pull = glm::length(options.gravity);
-    glm::vec3 sum = pull > 0.0f ? domain->tangent(at, options.gravity / pull) : glm::vec3(0.0f);
-    if (!(options.partingWidth > 0.0f)) return sum;
-    float nearest = options.partingWidth;
+    const float pull = glm::length(params.gravity.value);
+    glm::vec3 sum = pull > 0.0f ? domain->tangent(at, params.gravity.value / pull) : glm::vec3(0.0f);
+    if (!(params.partingWidth > 0.0f)) return sum;
+    float nearest = params.partingWidth;
     glm::vec3 away(0.0f);
     for (const Parting& parting : domain->lines) {
         for (std::size_t i = 1; i < parting.points.size(); ++i) {
@@ -115,7 +115,7 @@ glm::vec3 FieldSolver::State::defaultAt(std::uint32_t at, const FieldOptions& op
     }
     const float length = glm::length(away);
     if (!(length > 1e-9f)) return sum;
-    const float share = 1.0f - nearest / options.partingWidth;
+    const float share = 1.0f - nearest / params.partingWidth;
     return glm::mix(sum, away / length, share * share * (3.0f - 2.0f * share));
 }
 
@@ -256,12 +256,12 @@ Result<FieldSolver> FieldSolver::make(std::shared_ptr<const Surface> surface, st
     return solver;
 }
 
-DirectionField FieldSolver::defaults(const FieldOptions& options) const {
+DirectionField FieldSolver::defaults(const FieldParams& params) const {
     auto made = std::make_shared<DirectionField::State>();
     made->domain = m_state->domain;
     made->directions.assign(m_state->unknown.size(), glm::vec3(0.0f));
     for (const std::uint32_t vertex : m_state->vertex) {
-        const glm::vec3 direction = m_state->defaultAt(vertex, options);
+        const glm::vec3 direction = m_state->defaultAt(vertex, params);
         const float length = glm::length(direction);
         if (length > 1e-4f) made->directions[vertex] = direction / length;
     }
@@ -270,7 +270,7 @@ DirectionField FieldSolver::defaults(const FieldOptions& options) const {
     return field;
 }
 
-Result<DirectionField> FieldSolver::solve(std::span<const FieldStroke> strokes, const FieldOptions& options,
+Result<DirectionField> FieldSolver::solve(std::span<const FieldStroke> strokes, const FieldParams& params,
                                           Progress& progress) const {
     const State& s = *m_state;
     const auto count = static_cast<Eigen::Index>(s.vertex.size());
@@ -280,14 +280,14 @@ Result<DirectionField> FieldSolver::solve(std::span<const FieldStroke> strokes, 
     Matrix matrix = s.smooth;
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(count);
     // A screened system: influence falls to 1/e over `reach`.
-    const double lean = options.reach > 0.0f
-                            ? 1.0 / (static_cast<double>(options.reach) * static_cast<double>(options.reach))
+    const double lean = params.reach > 0.0f
+                            ? 1.0 / (static_cast<double>(params.reach) * static_cast<double>(params.reach))
                         : wishes.empty() ? 1.0 / std::max(s.edgeLength * s.edgeLength * 16.0, 1e-18)
                                          : 0.0;
     if (lean > 0.0) {
         for (Eigen::Index i = 0; i < count; ++i) {
             const std::uint32_t vertex = s.vertex[static_cast<std::size_t>(i)];
-            const glm::vec3 wanted = s.defaultAt(vertex, options);
+            const glm::vec3 wanted = s.defaultAt(vertex, params);
             // Steep skin knows where down is better than flat skin does.
             const double weight =
                 lean * s.areas[static_cast<std::size_t>(i)] * static_cast<double>(glm::length(wanted));

@@ -75,7 +75,8 @@ std::vector<FieldStroke> strokesFromGuides(const Groom& groom, const Surface& su
     std::vector<FieldStroke> strokes;
     for (std::size_t i = 0; i < groom.guides.count(); ++i) {
         if (group >= 0 && groom.guides.group(i) != group) continue;
-        FieldStroke stroke{{groom.guides.root(i)}, 1.0f};
+        FieldStroke stroke;
+        stroke.points.push_back(groom.guides.root(i));
         for (const glm::vec3& point : groom.guides.points(i).subspan(1)) {
             const auto hit = surface.query.nearest(point);
             if (!hit) break;

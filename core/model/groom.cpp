@@ -151,7 +151,8 @@ float largestSide(const SurfaceMesh& mesh) {
 bool Groom::sameAs(const Groom& other) const {
     return mesh.sameAs(other.mesh) && partSettings.sameAs(other.partSettings) && guides.sameAs(other.guides) &&
            maps.sameAs(other.maps) && groups.sameAs(other.groups) && counts.sameAs(other.counts) &&
-           partings.sameAs(other.partings);
+           partings.sameAs(other.partings) && strokes.sameAs(other.strokes) && field.sameAs(other.field) &&
+           lic.sameAs(other.lic);
 }
 
 std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
@@ -169,6 +170,12 @@ std::size_t Groom::bytesNotSharedWith(const Groom& before) const {
         for (const Parting& parting : *partings)
             bytes += sizeof(Parting) + parting.points.size() * sizeof(SurfacePoint);
     }
+    if (!strokes.sameAs(before.strokes)) {
+        for (const FieldStroke& stroke : *strokes)
+            bytes += sizeof(FieldStroke) + stroke.points.size() * sizeof(SurfacePoint);
+    }
+    if (!field.sameAs(before.field)) bytes += sizeof(FieldParams);
+    if (!lic.sameAs(before.lic)) bytes += sizeof(LicParams);
     return bytes;
 }
 

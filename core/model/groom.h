@@ -3,8 +3,10 @@
 #pragma once
 
 #include "core/base/cow.h"
+#include "core/model/field_stroke.h"
 #include "core/model/guide_set.h"
 #include "core/model/hair_params.h"
+#include "core/model/lic_params.h"
 #include "core/model/map.h"
 #include "core/model/parting.h"
 #include "core/model/surface_mesh.h"
@@ -34,7 +36,10 @@ struct Groom {
     MapSet maps;
     Cow<std::vector<Group>> groups{{Group{"hair"}}};  ///< 1 to maxGroups
     Cow<CountParams> counts;
-    Cow<std::vector<Parting>> partings;  ///< at most Parting::maxPartings
+    Cow<std::vector<Parting>> partings;     ///< at most Parting::maxPartings
+    Cow<std::vector<FieldStroke>> strokes;  ///< at most FieldStroke::maxStrokes
+    Cow<FieldParams> field;
+    Cow<LicParams> lic;
 
     /// True when every part is shared with `other`: nothing can differ.
     bool sameAs(const Groom& other) const;

@@ -24,7 +24,10 @@ float degreesBetween(const glm::vec3& a, const glm::vec3& b) {
 /// A stroke over the skin through the places nearest to `points`.
 FieldStroke strokeOn(const Surface& surface, const std::vector<glm::vec3>& points, float weight = 1.0f) {
     auto line = tracedParting(surface, points);
-    return {line.ok() ? *line : std::vector<SurfacePoint>(), weight};
+    FieldStroke stroke;
+    stroke.weight = weight;
+    if (line.ok()) stroke.points = *line;
+    return stroke;
 }
 
 struct Scene {
@@ -41,7 +44,7 @@ struct Scene {
         auto made = FieldSolver::make(surface, grows, partings, progress);
         return *made;
     }
-    DirectionField solve(const std::vector<FieldStroke>& strokes, const FieldOptions& options = {}) const {
+    DirectionField solve(const std::vector<FieldStroke>& strokes, const FieldParams& options = {}) const {
         Progress progress;
         return *solver().solve(strokes, options, progress);
     }
@@ -119,7 +122,7 @@ private Q_SLOTS:
     void strokesAreMet() {
         QFETCH(float, reach);
         const Scene scene(testing::sphere(96, 128));
-        FieldOptions options;
+        FieldParams options;
         options.reach = reach;
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             for (const FieldStroke& stroke : randomStrokes(*scene.surface, seed, 1)) {
@@ -223,7 +226,7 @@ private Q_SLOTS:
 
     void withoutStrokesHairHangsAndFallsFromTheParting() {
         Scene scene(testing::sphere(48, 64));
-        FieldOptions options;
+        FieldParams options;
         const DirectionField plain = scene.solve({}, options);
         const auto& mesh = scene.surface->mesh();
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -297,8 +300,8 @@ private Q_SLOTS:
     void strangeInputIsTaken() {
         Scene scene(testing::plane(4));
         const FieldStroke good = strokeOn(*scene.surface, {{-0.2f, 0, 0}, {0.2f, 0, 0}});
-        FieldStroke bad{{{99999, 0.2f, 0.2f}, {0, 0.2f, 0.2f}, {0, 0.2f, 0.2f}}, 1.0f};
-        FieldStroke nothing{{}, 1.0f}, weightless = good;
+        FieldStroke bad, nothing, weightless = good;
+        bad.points = {{99999, 0.2f, 0.2f}, {0, 0.2f, 0.2f}, {0, 0.2f, 0.2f}};
         weightless.weight = 0.0f;
         const DirectionField field = scene.solve({bad, nothing, weightless, good});
         for (const glm::vec3& direction : field.vertices()) QVERIFY(degreesBetween(direction, {1, 0, 0}) < 0.1f);
@@ -319,7 +322,7 @@ private Q_SLOTS:
         auto imported = importMesh(*file, progress);
         QVERIFY(imported.ok());
         const Scene scene(std::move(imported->mesh));
-        FieldOptions options;
+        FieldParams options;
         const Bounds bounds = scene.surface->bounds;
         options.reach = 0.3f * glm::length(bounds.size());
         // Over the skull, from above, as an artist draws.

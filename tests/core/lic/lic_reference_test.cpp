@@ -26,7 +26,7 @@ LicReference combed(std::shared_ptr<const Surface> surface, const std::vector<st
                     const std::vector<Parting>& partings = {}) {
     Progress progress;
     std::vector<FieldStroke> strokes;
-    for (const auto& line : lines) strokes.push_back({*tracedParting(*surface, line), 1.0f});
+    for (const auto& line : lines) strokes.emplace_back().points = *tracedParting(*surface, line);
     const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 1);
     const auto solver = FieldSolver::make(surface, grows, partings, progress);
     return LicReference(surface, *solver->solve(strokes, {}, progress));

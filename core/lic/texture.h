@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hair texture over a whole mesh, as it is drawn and baked.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace whorl {
+
+/// Square layers in UVs that do not overlap, and the direction of the hair. Layers are immutable and shared: one that
+/// is the same object as before has not changed. Row 0 is the top (v = 1).
+struct LicTexture {
+    template <class T>
+    using Layer = std::shared_ptr<const std::vector<T>>;
+
+    int size = 0;                 ///< texels a side; 0: no texture
+    Layer<std::uint8_t> light;    ///< size * size: the convolution, 0 to 255; margins around charts are filled
+    Layer<std::uint8_t> cover;    ///< size * size: how much hair lies there, 0 to 255
+    Layer<std::uint8_t> colours;  ///< 3 * size * size: colour of the hair, sRGB
+    Layer<glm::vec2> cornerUvs;   ///< 3 a triangle: those of the mesh, or an own atlas where they overlap
+    Layer<glm::vec3> tangents;    ///< 3 a triangle: unit direction of the hair at the corner; zero: none grows
+    /// Of `light`, from 0 to 1: what it is on average, and how far from that values usually are (standard deviation
+    /// that the parameters lead to); drawn contrast is relative to them, so that no setting washes out.
+    float mean = 0.5f;
+    float deviation = 0.1f;
+    /// The part of `light` and `cover` that differs from the texture before: first texel and past the last one; both
+    /// zero: all of it may.
+    glm::ivec2 changedFrom{0};
+    glm::ivec2 changedTo{0};
+
+    bool empty() const { return size == 0; }
+};
+
+}  // namespace whorl

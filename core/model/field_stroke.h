@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the artist draws on the skin to say which way hair lies.
+#pragma once
+
+#include "core/model/surface_mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace whorl {
+
+/// How a stroke sets directions. The numbers are in documents, for ever.
+enum class StrokeKind : std::uint8_t {
+    Along = 0,    ///< hair lies along the line, from its first point to its last
+    Attract = 1,  ///< hair points to the line, or to its one point
+    Repel = 2,    ///< hair points away from it
+    Whorl = 3,    ///< hair turns around its one point, anticlockwise seen from outside
+};
+inline constexpr std::array<std::string_view, 4> strokeKindNames{"along", "attract", "repel", "whorl"};
+
+/// A line on the skin that sets the direction of the hair around it (core/field). One point is enough for all kinds
+/// but Along.
+struct FieldStroke {
+    static constexpr std::size_t maxPoints = 4096;
+    static constexpr std::size_t maxStrokes = 10000;
+
+    std::uint32_t id = 0;  ///< unique in the groom, above zero
+    StrokeKind kind = StrokeKind::Along;
+    float weight = 1.0f;               ///< against other strokes and the default; 0.01 to 100
+    float radius = 0.0f;               ///< metres around a line within which Attract, Repel and Whorl act; 0 for Along
+    std::vector<SurfacePoint> points;  ///< 1 (Along: 2) to maxPoints; see tracedParting for how dense
+    bool operator==(const FieldStroke&) const = default;
+};
+
+}  // namespace whorl
