@@ -7,11 +7,16 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
 namespace whorl {
 namespace {
+
+/// Share of the length that a black texel of the length map leaves.
+constexpr float shortest = 0.02f;
 
 glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
     const float length = glm::length(v);
@@ -51,17 +56,29 @@ std::vector<glm::vec3> grown(const Surface& surface, const SkinClearance& skin, 
 
 }  // namespace
 
+GrowAlong growAlong(const FieldParams& params) {
+    const float pull = glm::length(params.gravity.value);
+    GrowAlong how{.length = params.length.value, .lengthMap = params.length.map, .lift = params.lift};
+    if (pull > 0.0f) how.gravity = params.gravity.value * (params.bend / pull);
+    return how;
+}
+
 Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
                              const GrowAlong& options, Progress& progress) {
     const std::size_t count = groom.guides.count();
     std::vector<std::vector<glm::vec3>> shapes(count);
     const SkinClearance skin = SkinClearance::of(surface);
+    const Map* lengths = options.lengthMap.empty() ? nullptr : groom.maps.find(options.lengthMap);
     parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last && !progress.cancelled(); ++i) {
             if (options.group >= 0 && groom.guides.group(i) != options.group) continue;
             const auto points = groom.guides.points(i);
-            const float length = options.length > 0.0f ? options.length : curveLength(points);
-            shapes[i] = grown(surface, skin, field, options, groom.guides.root(i), points.size(), length);
+            const SurfacePoint root = groom.guides.root(i);
+            float length = options.length > 0.0f ? options.length : curveLength(points);
+            // A guide keeps a direction even where the map is black.
+            if (options.length > 0.0f && lengths && !lengths->empty())
+                length *= std::max(lengths->sample(uvAt(surface.mesh(), root)), shortest);
+            shapes[i] = grown(surface, skin, field, options, root, points.size(), length);
         }
     });
     if (progress.cancelled()) return cancelledError();

@@ -10,12 +10,16 @@
 namespace whorl {
 
 struct GrowAlong {
-    float length = 0.0f;  ///< metres; 0: every guide keeps the length that it has
+    float length = 0.0f;      ///< metres; 0: every guide keeps the length that it has
+    std::string lengthMap{};  ///< a map of the groom that `length` is multiplied by at the root; may be empty
     /// How guides leave the skin: 0 flat along it, 1 straight up; they lie down towards their tips.
     float lift = 0.25f;
     int group = -1;           ///< guides of this group only; -1: of all
     glm::vec3 gravity{0.0f};  ///< bends tips further: direction times strength, 1 a lot
 };
+
+/// What the artist's parameters ask for. For guides of all groups.
+GrowAlong growAlong(const FieldParams& params);
 
 /// Gives every guide of `groom` a new shape from its root: along `field` over the skin, outside of it, with segments of
 /// equal length. Guides where the field has no direction stay as they are. `surface` is that of the groom's mesh. Fails

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bake-lic: hair texture in the mesh's UVs.
-#include "core/field/grow_guides.h"
-#include "core/field/growing_area.h"
+#include "core/field/groom_field.h"
 #include "core/io/image.h"
 #include "core/lic/bake.h"
 #include "core/sampling/density.h"
@@ -28,9 +27,7 @@ Outcome bake(const Options& options) {
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
     const auto surface = std::make_shared<const Surface>(groom->mesh);
-    const auto solver = FieldSolver::make(surface, growingTriangles(*groom), *groom->partings, progress());
-    if (!solver) return badInput(solver.error());
-    const auto field = solver->solve(strokesFromGuides(*groom, *surface, -1), {}, progress());
+    const auto field = groomField(*groom, surface, progress());
     if (!field) return badInput(field.error());
     LicOptions lic;
     lic.length = options.length;
