@@ -44,6 +44,10 @@ std::span<const glm::vec3> DirectionField::vertices() const {
     return m_state ? std::span<const glm::vec3>(m_state->directions) : std::span<const glm::vec3>();
 }
 
+std::span<const std::uint8_t> DirectionField::grows() const {
+    return m_state ? std::span<const std::uint8_t>(m_state->domain->grows) : std::span<const std::uint8_t>();
+}
+
 glm::vec3 DirectionField::at(const SurfacePoint& point) const {
     if (!m_state) return glm::vec3(0.0f);
     const FieldDomain& domain = *m_state->domain;

@@ -37,6 +37,8 @@ public:
     bool empty() const { return m_state == nullptr; }
     /// Unit tangent (perpendicular to the normal there) at each vertex; zero where no hair grows.
     std::span<const glm::vec3> vertices() const;
+    /// One a triangle: 1 inside the growing area. Empty for an empty field.
+    std::span<const std::uint8_t> grows() const;
     /// Unit tangent at a place of the skin, from those of the triangle's vertices that no parting separates from it;
     /// zero where no hair grows or directions cancel out.
     glm::vec3 at(const SurfacePoint& point) const;

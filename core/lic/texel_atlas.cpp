@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/lic/texel_atlas.h"
+
+#include "core/lic/texel_raster.h"
+#include "core/surface/atlas.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace whorl {
+namespace {
+
+bool insideSquare(const std::vector<glm::vec2>& uvs) {
+    return std::ranges::all_of(uvs, [](const glm::vec2& uv) {
+        return uv.x >= -1e-4f && uv.x <= 1.0001f && uv.y >= -1e-4f && uv.y <= 1.0001f;
+    });
+}
+
+}  // namespace
+
+Result<TexelAtlas> TexelAtlas::make(std::shared_ptr<const Surface> surface, int size, LicLayout layout,
+                                    Progress& progress) {
+    TexelAtlas atlas;
+    atlas.m_surface = std::move(surface);
+    atlas.m_size = std::clamp(size, 1, 8192);
+    atlas.m_side = (atlas.m_size + 2 * pad + block - 1) / block * block;
+    const SurfaceMesh& mesh = atlas.mesh();
+    std::optional<Raster> raster;
+    if (layout == LicLayout::Mesh || (!needsAtlas(mesh) && insideSquare(mesh.cornerUvs))) {
+        atlas.m_cornerUvs = std::make_shared<const std::vector<glm::vec2>>(mesh.cornerUvs);
+        raster.emplace(atlas);
+    }
+    if (progress.cancelled()) return cancelledError();
+    if (!raster || !raster->roomFor(layout)) {
+        SurfaceMesh copy = mesh;
+        makeAtlas(copy, atlas.m_size, static_cast<int>(2.0f * margin));
+        atlas.m_cornerUvs = std::make_shared<const std::vector<glm::vec2>>(std::move(copy.cornerUvs));
+        atlas.m_ownUvs = true;
+        if (progress.cancelled()) return cancelledError();
+        raster.emplace(atlas);
+    }
+    if (progress.cancelled()) return cancelledError();
+    atlas.measure();
+    atlas.place(*raster);
+    raster.reset();
+    if (progress.cancelled()) return cancelledError();
+    atlas.fillAround();
+    atlas.linkBlocks();
+    return atlas;
+}
+
+glm::vec2 TexelAtlas::texelPlace(std::size_t corner) const {
+    const glm::vec2 uv = (*m_cornerUvs)[corner];
+    const auto size = static_cast<float>(m_size);
+    return glm::vec2(uv.x, 1.0f - uv.y) * size + static_cast<float>(pad);
+}
+
+TexelAtlas::Gradients TexelAtlas::gradients(std::uint32_t triangle) const {
+    const glm::uvec3 corners = mesh().triangles[triangle];
+    const glm::dvec3 a(mesh().positions[corners.x]);
+    const glm::dvec3 e1 = glm::dvec3(mesh().positions[corners.y]) - a, e2 = glm::dvec3(mesh().positions[corners.z]) - a;
+    const glm::vec2 p = texelPlace(triangle * 3ull);
+    const glm::dvec2 d1(texelPlace(triangle * 3ull + 1) - p), d2(texelPlace(triangle * 3ull + 2) - p);
+    const double aa = glm::dot(e1, e1), bb = glm::dot(e2, e2), ab = glm::dot(e1, e2), area = aa * bb - ab * ab;
+    if (!(area > 1e-12 * aa * bb) || !(area > 0.0)) return {};
+    const glm::dvec3 x = e1 * (d1.x * bb - d2.x * ab) + e2 * (d2.x * aa - d1.x * ab);
+    const glm::dvec3 y = e1 * (d1.y * bb - d2.y * ab) + e2 * (d2.y * aa - d1.y * ab);
+    return {glm::vec3(x / area), glm::vec3(y / area)};
+}
+
+// Sides of texels, by texels.
+void TexelAtlas::measure() {
+    std::vector<std::pair<float, float>> sides, shortest;  // metres, texels of that side
+    double all = 0.0;
+    for (std::uint32_t t = 0; t < mesh().triangleCount(); ++t) {
+        const glm::vec2 p = texelPlace(t * 3ull);
+        const glm::dvec2 d1(texelPlace(t * 3ull + 1) - p), d2(texelPlace(t * 3ull + 2) - p);
+        const double texels = 0.5 * std::abs(d1.x * d2.y - d1.y * d2.x), area = triangleArea(mesh(), t);
+        const Gradients g = gradients(t);
+        // The longest that a metre can get: the larger singular value of both gradients.
+        const auto xx = static_cast<double>(glm::dot(g.x, g.x)), yy = static_cast<double>(glm::dot(g.y, g.y)),
+                   xy = static_cast<double>(glm::dot(g.x, g.y));
+        const double longest = std::sqrt(0.5 * (xx + yy + std::sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy)));
+        if (!(texels > 0.0) || !(area > 0.0) || !(longest > 0.0)) continue;
+        sides.emplace_back(static_cast<float>(std::sqrt(area / texels)), static_cast<float>(texels));
+        shortest.emplace_back(static_cast<float>(1.0 / longest), static_cast<float>(texels));
+        all += texels;
+    }
+    const auto below = [&](std::vector<std::pair<float, float>>& of, double share) {
+        std::sort(of.begin(), of.end());
+        float found = 1.0f;
+        double before = 0.0;
+        for (const auto& [metres, texels] : of) {
+            if (before > share * all) break;
+            found = metres;
+            before += static_cast<double>(texels);
+        }
+        return found;
+    };
+    m_usualTexel = below(sides, 0.5);
+    m_fineTexel = std::min(below(shortest, 0.1), m_usualTexel);
+}
+
+void TexelAtlas::place(Raster& raster) {
+    const auto count = raster.owner.size();
+    const auto width = static_cast<std::size_t>(m_side), across = static_cast<std::size_t>(blocksAcross());
+    m_slotOf.assign(count, none);
+    m_firstSlot.assign(1, 0);
+    std::vector<Slot> here;
+    std::vector<Jump> beyond;
+    for (std::size_t b = 0; b < across * across; ++b) {
+        here.clear();
+        for (std::size_t i = 0; i < std::size_t{block} * block; ++i) {
+            const std::size_t x = b % across * block + i % block, y = b / across * block + i / block;
+            const std::size_t texel = y * width + x;
+            const glm::dvec2 middle(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+            Slot slot{static_cast<std::uint32_t>(texel), raster.owner[texel], 0.0f, 0.0f};
+            if (slot.triangle == none && raster.seam[texel] != none) {
+                const auto way = raster.unfold(raster.seam[texel] / 3, raster.seam[texel] % 3);
+                if (!way) continue;
+                const glm::dvec2 to = way->to + way->turn * (middle - way->from);
+                if (!(std::abs(to.x) < 1e6 && std::abs(to.y) < 1e6)) continue;
+                // The triangle that the place falls into, or the neighbour's own plane where none covers the texel.
+                slot.triangle = way->other;
+                if (to.x >= 0.0 && to.y >= 0.0 && to.x < static_cast<double>(m_side) &&
+                    to.y < static_cast<double>(m_side)) {
+                    const std::uint32_t covers =
+                        raster.owner[static_cast<std::size_t>(to.y) * width + static_cast<std::size_t>(to.x)];
+                    if (covers != none && raster.charts[covers] == raster.charts[way->other]) slot.triangle = covers;
+                }
+                const glm::dvec2 s = raster.shares(slot.triangle, to);
+                slot.u = static_cast<float>(std::clamp(s.x, -8.0, 8.0));
+                slot.v = static_cast<float>(std::clamp(s.y, -8.0, 8.0));
+                beyond.push_back({slot.texel,
+                                  {static_cast<float>(way->turn[0][0]), static_cast<float>(way->turn[1][0]),
+                                   static_cast<float>(way->turn[0][1]), static_cast<float>(way->turn[1][1])},
+                                  {static_cast<float>(to.x), static_cast<float>(to.y)}});
+            } else if (slot.triangle != none) {
+                const glm::dvec2 s = raster.shares(slot.triangle, middle);
+                slot.u = static_cast<float>(s.x);
+                slot.v = static_cast<float>(s.y);
+            }
+            if (slot.triangle != none) here.push_back(slot);
+        }
+        std::stable_sort(here.begin(), here.end(),
+                         [](const Slot& p, const Slot& q) { return p.triangle < q.triangle; });
+        for (const Slot& slot : here) {
+            m_slotOf[slot.texel] = static_cast<std::uint32_t>(m_slots.size());
+            m_slots.push_back(slot);
+        }
+        m_firstSlot.push_back(static_cast<std::uint32_t>(m_slots.size()));
+    }
+    for (Jump& jump : beyond) jump.slot = m_slotOf[jump.slot];
+    std::sort(beyond.begin(), beyond.end(), [](const Jump& p, const Jump& q) { return p.slot < q.slot; });
+    m_jumps = std::move(beyond);
+}
+
+// Rings around charts, each texel from one of its neighbours of the ring before.
+void TexelAtlas::fillAround() {
+    const int least = pad, most = pad + m_size - 1;
+    std::vector<Fill> found, ring;
+    PlainVector<std::uint32_t> source(m_slotOf.size());
+    for (std::size_t i = 0; i < source.size(); ++i)
+        source[i] = m_slotOf[i] != none ? static_cast<std::uint32_t>(i) : none;
+    std::vector<std::uint32_t> edge;
+    for (const Slot& slot : m_slots) edge.push_back(slot.texel);
+    const auto width = static_cast<std::uint32_t>(m_side);
+    for (int pass = 0; pass < fill; ++pass) {
+        ring.clear();
+        for (const std::uint32_t texel : edge) {
+            const int x = static_cast<int>(texel % width), y = static_cast<int>(texel / width);
+            for (int n = 0; n < 9; ++n) {
+                const int nx = x + n % 3 - 1, ny = y + n / 3 - 1;
+                if (nx < least || ny < least || nx > most || ny > most) continue;
+                const auto next = static_cast<std::uint32_t>(ny) * width + static_cast<std::uint32_t>(nx);
+                if (source[next] == none) ring.push_back({next, source[texel]});
+            }
+        }
+        std::sort(ring.begin(), ring.end(), [](const Fill& p, const Fill& q) {
+            return p.texel != q.texel ? p.texel < q.texel : p.from < q.from;
+        });
+        edge.clear();
+        for (const Fill& f : ring) {
+            if (source[f.texel] != none) continue;
+            source[f.texel] = f.from;
+            found.push_back(f);
+            edge.push_back(f.texel);
+        }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [&](const Fill& p, const Fill& q) { return blockOf(p.from) < blockOf(q.from); });
+    m_fills = std::move(found);
+    m_firstFill.assign(blockCount() + 1, 0);
+    for (const Fill& f : m_fills) ++m_firstFill[blockOf(f.from) + 1];
+    for (std::size_t b = 0; b < blockCount(); ++b) m_firstFill[b + 1] += m_firstFill[b];
+}
+
+void TexelAtlas::linkBlocks() {
+    for (const Jump& jump : m_jumps) {
+        const auto reach = static_cast<float>(m_side - 1);
+        const auto x = static_cast<std::uint32_t>(std::clamp(jump.to[0], 0.0f, reach));
+        const auto y = static_cast<std::uint32_t>(std::clamp(jump.to[1], 0.0f, reach));
+        const std::uint32_t here = blockOf(m_slots[jump.slot].texel);
+        const std::uint32_t there = blockOf(y * static_cast<std::uint32_t>(m_side) + x);
+        if (here == there) continue;
+        m_links.push_back({here, there});
+        m_links.push_back({there, here});
+    }
+    std::sort(m_links.begin(), m_links.end());
+    m_links.erase(std::unique(m_links.begin(), m_links.end()), m_links.end());
+}
+
+void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels) const {
+    const int across = blocksAcross();
+    const int rings = static_cast<int>(std::ceil(texels / static_cast<float>(block)));
+    std::vector<std::uint32_t> edge, next;
+    for (std::uint32_t b = 0; b < blocks.size(); ++b)
+        if (blocks[b]) edge.push_back(b);
+    for (int pass = 0; pass <= rings && !edge.empty(); ++pass) {
+        next.clear();
+        const auto reach = [&](std::uint32_t b) {
+            if (blocks[b]) return;
+            blocks[b] = 1;
+            next.push_back(b);
+        };
+        // Through seams at no cost: what is beyond is as near as the margin.
+        for (std::size_t i = 0; i < edge.size(); ++i) {
+            const auto from = std::lower_bound(m_links.begin(), m_links.end(), std::array{edge[i], 0u});
+            for (auto link = from; link != m_links.end() && (*link)[0] == edge[i]; ++link) {
+                if (blocks[(*link)[1]]) continue;
+                blocks[(*link)[1]] = 1;
+                edge.push_back((*link)[1]);
+            }
+        }
+        if (pass == rings) break;
+        for (const std::uint32_t b : edge) {
+            const int x = static_cast<int>(b) % across, y = static_cast<int>(b) / across;
+            for (int n = 0; n < 9; ++n) {
+                const int nx = x + n % 3 - 1, ny = y + n / 3 - 1;
+                if (nx >= 0 && ny >= 0 && nx < across && ny < across)
+                    reach(static_cast<std::uint32_t>(ny * across + nx));
+            }
+        }
+        std::swap(edge, next);
+    }
+}
+
+}  // namespace whorl
