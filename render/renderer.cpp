@@ -86,6 +86,7 @@ struct Renderer::State {
     LineRibbons lookedBy;  // the guides that shape it
     HairPass hair;
     ShadowPass shadows;
+    LicPass lic;
     PicturePass picture;
     OverlayPass overlay;
     gl::Buffer sceneBuffer;
@@ -138,7 +139,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     std::unique_ptr<Renderer> renderer(new Renderer);
     renderer->m_state = std::unique_ptr<State>(new State{
         std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
-        std::move(*looked), std::move(*lookedBy), std::move(*hair), ShadowPass(), std::move(*picture),
+        std::move(*looked), std::move(*lookedBy), std::move(*hair), ShadowPass(), LicPass(), std::move(*picture),
         std::move(*overlay), gl::Buffer("scene"), gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
     renderer->m_state->byProcessor = renderer->m_state->context.software;
     return renderer;
@@ -173,6 +174,12 @@ void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
     state.hairBounds = state.hair.strands() != nullptr ? vertexBounds(*state.hair.strands()) : Bounds{};
     state.shadows.hairChanged();
     state.uploadMilliseconds = milliseconds(start);
+}
+
+void Renderer::setLicTexture(std::shared_ptr<const LicTexture> texture) {
+    const auto start = std::chrono::steady_clock::now();
+    m_state->lic.setTexture(std::move(texture), m_state->uploads);
+    m_state->uploadMilliseconds = milliseconds(start);
 }
 
 void Renderer::setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours) {
@@ -223,7 +230,7 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     }
     state.picture.begin(drawn, effort.samples);
     state.picture.drawBackground(settings);
-    if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, state.uploads);
+    if (settings.showMesh) state.mesh.draw(settings, effort.litByVertex, &state.lic, state.uploads);
     if (!effort.byProcessor) {
         if (hair != nullptr) state.hair.draw();
         state.vertexArray.bind();

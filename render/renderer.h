@@ -4,6 +4,7 @@
 
 #include "core/base/result.h"
 #include "core/hair/strands.h"
+#include "core/lic/texture.h"
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
 #include "render/camera.h"
@@ -32,6 +33,10 @@ public:
     /// `strands` may be null.
     void setGroom(const Groom& groom, std::shared_ptr<const Surface> surface);
     void setStrands(std::shared_ptr<const Strands> strands);
+
+    /// Hair painted on the mesh, which ViewSettings::showLic shows as Groom::lic lights it; may be null. Made for
+    /// another mesh it is not shown.
+    void setLicTexture(std::shared_ptr<const LicTexture> texture);
 
     /// Colours of the mesh's triangles (linear, opacity last) that ViewSettings::heat shows; may be null.
     void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);

@@ -12,6 +12,7 @@ struct Uploads {
     std::uint64_t mapTiles = 0;
     std::uint64_t guideBlocks = 0;
     std::uint64_t strands = 0;
+    std::uint64_t licTiles = 0;  ///< of hair texture: tones and colours
     std::uint64_t bytes = 0;
     bool operator==(const Uploads&) const = default;
 };

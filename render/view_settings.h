@@ -17,6 +17,8 @@ struct ViewSettings {
     bool showMesh = true;
     bool showTexture = true;
     bool showHair = true;
+    /// Hair texture on the mesh (Renderer::setLicTexture), with showHair below the strands, which cast shadows on it.
+    bool showLic = false;
     bool showGuides = false;
     std::string overlayMap{};  ///< map shown in colour over the mesh, or empty
     float overlayOpacity = 0.65f;

@@ -31,6 +31,8 @@ FormatInfo info(Format format) {
             return {GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE};
         case Format::Rgb8Srgb:
             return {GL_SRGB8, GL_RGB, GL_UNSIGNED_BYTE};
+        case Format::Rgba8Srgb:
+            return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
         case Format::Rgb16:
             return {GL_RGB16, GL_RGB, GL_UNSIGNED_SHORT};
         case Format::Rgb32F:
@@ -157,10 +159,14 @@ Texture Texture::make3D(std::string_view text, Format format, glm::ivec3 size) {
 }
 
 void Texture::upload(glm::ivec2 offset, glm::ivec2 size, const void* texels, int rowTexels) {
+    uploadLevel(0, offset, size, texels, rowTexels);
+}
+
+void Texture::uploadLevel(int level, glm::ivec2 offset, glm::ivec2 size, const void* texels, int rowTexels) {
     const FormatInfo format = info(m_format);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, rowTexels);
-    glTextureSubImage2D(m_name.get(), 0, offset.x, offset.y, size.x, size.y, format.channels, format.type, texels);
+    glTextureSubImage2D(m_name.get(), level, offset.x, offset.y, size.x, size.y, format.channels, format.type, texels);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }

@@ -75,7 +75,21 @@ private:
     std::size_t m_size = 0;
 };
 
-enum class Format { R8, R16, R32F, Rgb8, Rgb8Srgb, Rgb16, Rgb32F, Rgba8, Rgba16F, Rgba16, Depth24, Depth32F };
+enum class Format {
+    R8,
+    R16,
+    R32F,
+    Rgb8,
+    Rgb8Srgb,
+    Rgba8Srgb,
+    Rgb16,
+    Rgb32F,
+    Rgba8,
+    Rgba16F,
+    Rgba16,
+    Depth24,
+    Depth32F
+};
 enum class Wrap { Clamp, Repeat };
 
 /// A texture in two or three dimensions, or a multisampled one.
@@ -90,6 +104,8 @@ public:
     /// Rows of `rowTexels` texels in memory (0: as wide as the region), channels as in the format, of the type that
     /// `Format` names (R8 bytes, R16 shorts, F floats).
     void upload(glm::ivec2 offset, glm::ivec2 size, const void* texels, int rowTexels = 0);
+    /// The same for one of the smaller versions of a texture with mipmaps; level 0 is the texture itself.
+    void uploadLevel(int level, glm::ivec2 offset, glm::ivec2 size, const void* texels, int rowTexels = 0);
     void upload3D(const void* texels);
     void makeMipmaps();
     /// Waits for what is drawn and copies all texels, rows from the bottom. Not of multisampled textures.

@@ -8,14 +8,17 @@ namespace whorl {
 Result<MeshPass> MeshPass::create(int maxTextureSize) {
     MeshPass pass;
     pass.m_maxTextureSize = maxTextureSize;
-    Result<gl::Program> program = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl");
-    if (!program) return program.error();
-    Result<gl::Program> vertexLit = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl", "#define VERTEX_LIT\n");
-    if (!vertexLit) return vertexLit.error();
+    for (const bool lic : {false, true}) {
+        for (const bool litByVertex : {false, true}) {
+            const std::string defines =
+                std::string(lic ? "#define LIC\n" : "") + (litByVertex ? "#define VERTEX_LIT\n" : "");
+            Result<gl::Program> program = gl::Program::draw("mesh.vert.glsl", "mesh.frag.glsl", defines);
+            if (!program) return program.error();
+            pass.m_programs[lic ? 1 : 0][litByVertex ? 1 : 0] = std::move(*program);
+        }
+    }
     Result<gl::Program> shadow = gl::Program::draw("mesh.vert.glsl", "empty.frag.glsl", "#define SHADOW\n");
     if (!shadow) return shadow.error();
-    pass.m_program = std::move(*program);
-    pass.m_vertexLitProgram = std::move(*vertexLit);
     pass.m_shadowProgram = std::move(*shadow);
     pass.m_positions = gl::Buffer("mesh positions");
     pass.m_normals = gl::Buffer("mesh normals");
@@ -53,6 +56,7 @@ void MeshPass::setGroom(const Groom& groom, Uploads& uploads) {
         uploads.bytes += m_positions.size() + m_normals.size() + m_corners.size() + m_uvs.size();
     }
     m_parts = *groom.partSettings;
+    m_lic = groom.lic;
     if (!m_maps.sameAs(groom.maps)) {
         m_maps = groom.maps;
         std::erase_if(m_textures, [&](const auto& entry) { return m_maps.find(entry.first) == nullptr; });
@@ -67,7 +71,7 @@ void MeshPass::bindBuffers() const {
     m_uvs.bindStorage(3);
 }
 
-void MeshPass::draw(const ViewSettings& settings, bool litByVertex, Uploads& uploads) {
+void MeshPass::draw(const ViewSettings& settings, bool litByVertex, const LicPass* lic, Uploads& uploads) {
     if (m_triangles == 0) return;
     const auto textureOf = [&](const std::string& name) -> const MapTexture* {
         const Map* map = name.empty() ? nullptr : m_maps.find(name);
@@ -76,7 +80,9 @@ void MeshPass::draw(const ViewSettings& settings, bool litByVertex, Uploads& upl
         if (texture.empty()) texture.update(*map, m_maxTextureSize, uploads);
         return &texture;
     };
-    gl::Program& program = litByVertex ? m_vertexLitProgram : m_program;
+    const bool painted = lic != nullptr && settings.showLic && lic->covers(m_triangles);
+    gl::Program& program = m_programs[painted ? 1 : 0][litByVertex ? 1 : 0];
+    if (painted) lic->bind(program, *m_lic, settings.ambient / ViewSettings().ambient);
     const MapTexture* overlay = textureOf(settings.overlayMap);
     program.set("overlayOpacity", overlay != nullptr ? std::clamp(settings.overlayOpacity, 0.0f, 1.0f) : 0.0f);
     if (overlay != nullptr) {

@@ -5,6 +5,7 @@
 #include "core/model/groom.h"
 #include "render/gl/draw.h"
 #include "render/gl/program.h"
+#include "render/passes/lic_pass.h"
 #include "render/passes/map_texture.h"
 #include "render/view_settings.h"
 
@@ -26,8 +27,8 @@ public:
     /// One a triangle, opacity last, or none; shown while ViewSettings::heat is on. Uploads when the pointer differs.
     void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);
     /// Scene block, volumes and shadow map must be bound.
-    /// `litByVertex`: cheaper, for meshes with fewer corners than they cover pixels.
-    void draw(const ViewSettings& settings, bool litByVertex, Uploads& uploads);
+    /// `litByVertex`: cheaper, for meshes with fewer corners than they cover pixels. `lic`: hair texture, may be null.
+    void draw(const ViewSettings& settings, bool litByVertex, const LicPass* lic, Uploads& uploads);
     /// Depth of all visible parts in the projection of scene.shadowFromGroom.
     void drawShadow();
     std::size_t triangles() const { return m_triangles; }
@@ -36,8 +37,7 @@ private:
     void bindBuffers() const;
 
     int m_maxTextureSize = 0;
-    gl::Program m_program;
-    gl::Program m_vertexLitProgram;
+    gl::Program m_programs[2][2];  // with hair texture; lit by vertex
     gl::Program m_shadowProgram;
     gl::Buffer m_positions;
     gl::Buffer m_normals;
@@ -49,6 +49,7 @@ private:
     std::shared_ptr<const std::vector<glm::vec4>> m_triangleColours;
     Cow<SurfaceMesh> m_mesh;
     std::vector<PartSettings> m_parts;
+    Cow<LicParams> m_lic;
     MapSet m_maps;
     std::map<std::string, MapTexture, std::less<>> m_textures;  // only maps that were needed
     std::size_t m_triangles = 0;

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skin under studio lights, with a map in colour over it. VERTEX_LIT: the light comes with the vertices.
+// Skin under studio lights, with a map in colour over it. VERTEX_LIT: the light comes with the vertices. LIC: under hair
+// texture.
+#if defined(LIC) || !defined(VERTEX_LIT)
+#include "skin.glsl"
+#endif
+#ifdef LIC
+#include "lic.glsl"
+layout(location = 4) in vec3 tangent;
+layout(location = 5) in vec2 licUv;
+#endif
 #ifdef VERTEX_LIT
 layout(location = 0) in vec3 light;
 layout(location = 1) in vec3 gloss;
+#ifdef LIC
+layout(location = 6) in vec3 position;
+layout(location = 7) in vec3 normal;
+#endif
 #else
-#include "skin.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 #endif
@@ -60,15 +72,25 @@ void main() {
         base = mix(base, shown, overlayOpacity);
     }
     base = mix(base, triangleColour.rgb, triangleColour.a);
-#ifdef VERTEX_LIT
-    colour = vec4(base * light + gloss, 1.0);
-#else
+#if defined(LIC) || !defined(VERTEX_LIT)
     vec3 toEye = normalize(scene.eye.xyz - position);
     vec3 n = normalize(normal);
     if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
+#endif
+#ifdef LIC
+    LicHair hair = licHair(licUv, tangent, n, position, toEye);
+    if (hair.cover >= 1.0) {
+        colour = vec4(licShade(hair, position, n, toEye), 1.0);
+        return;
+    }
+#endif
+#ifndef VERTEX_LIT
     vec3 light;
     vec3 gloss;
     skinLight(position, n, toEye, light, gloss);
+#endif
     colour = vec4(base * light + gloss, 1.0);
+#ifdef LIC
+    if (hair.cover > 0.0) colour.rgb = mix(colour.rgb, licShade(hair, position, n, toEye), hair.cover);
 #endif
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Corners of triangles, pulled from the welded mesh: three vertices a triangle. SHADOW: places only, seen by the light.
+// LIC: with hair texture.
 #include "scene.glsl"
 #ifdef VERTEX_LIT
 #include "skin.glsl"
@@ -17,6 +18,16 @@ layout(location = 1) out vec3 normal;
 #endif
 layout(location = 2) out vec2 uv;
 layout(location = 3) flat out vec4 triangleColour;
+#ifdef LIC
+layout(std430, binding = 5) readonly buffer LicUvs { vec2 licUvs[]; };
+layout(std430, binding = 6) readonly buffer LicTangents { float licTangents[]; };
+layout(location = 4) out vec3 tangent;
+layout(location = 5) out vec2 licUv;
+#ifdef VERTEX_LIT
+layout(location = 6) out vec3 position;
+layout(location = 7) out vec3 normal;
+#endif
+#endif
 layout(std430, binding = 4) readonly buffer Colours { vec4 triangleColours[]; };
 uniform int coloured;  // triangles have colours
 
@@ -24,7 +35,7 @@ vec3 at(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u], positio
 
 void main() {
     uint vertex = corners[gl_VertexID];
-#ifdef VERTEX_LIT
+#if defined(VERTEX_LIT) && !defined(LIC)
     vec3 position = at(vertex);
     vec3 normal;
 #else
@@ -39,6 +50,10 @@ void main() {
     skinLight(position, normal, normalize(scene.eye.xyz - position), light, gloss);
 #endif
     uv = uvs[gl_VertexID];
+#ifdef LIC
+    licUv = licUvs[gl_VertexID];
+    tangent = vec3(licTangents[3 * gl_VertexID], licTangents[3 * gl_VertexID + 1], licTangents[3 * gl_VertexID + 2]);
+#endif
     triangleColour = coloured != 0 ? triangleColours[gl_VertexID / 3] : vec4(0.0);
     gl_Position = scene.clipFromGroom * vec4(position, 1.0);
 #endif
