@@ -237,13 +237,13 @@ void checkColour(const char* name, ColourImage (*paint)(int)) {
     expect(hashImage(a) == hashImage(b), std::string(name) + " repeatable");
 }
 
-void checkSculpture(const char* name, Sculpture (*build)()) {
+void checkSculpture(const char* name, Sculpture (*build)(), size_t most = 40000) {
     const auto start = std::chrono::steady_clock::now();
     const Sculpture s = build();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const size_t count = allTriangles(s).size();
     std::printf("%s: %zu vertices, %zu triangles, %.2f s\n", name, s.positions.size(), count, seconds);
-    expect(count >= 20000 && count <= 40000, "triangle count within 20k..40k");
+    expect(count >= 20000 && count <= most, "triangle count within 20000.." + std::to_string(most));
     checkGeometry(s);
     checkManifold(s);
     checkMirror(s);
@@ -261,6 +261,8 @@ int main() {
     checkScalar("bustScalpDensity", bustScalpDensity);
     checkScalar("bustBrowDensity", bustBrowDensity);
     checkColour("bustSkin", bustSkin);
+    checkSculpture("bob", sculptBob, 60000);
+    checkScalar("bobDensity", bobDensity);
     checkSculpture("creature", sculptCreature);
     checkScalar("creatureDensity", creatureDensity);
     checkScalar("creatureLength", creatureLength);

@@ -31,7 +31,9 @@ float edgeLength(const vec3& p) {
     return p.y < 0.0015f ? 0.0060f : wanted;
 }
 
-HalfMesh bustMesh() {
+}  // namespace
+
+HalfMesh bustHalf() {
     const Field surface = bustDistance;
     HalfMesh mesh = polygonise(surface, {0.0f, -0.008f, -0.150f}, {0.165f, 0.408f, 0.120f}, 0.0026f);
     // The head comes off along a line under the jaw to the nape; the ears, and a cut below each, let it lie flat.
@@ -47,9 +49,7 @@ HalfMesh bustMesh() {
     return mesh;
 }
 
-}  // namespace
-
-Sculpture sculptBust() {
+Recipe bustRecipe() {
     Recipe recipe;
     recipe.seams.isSeam = [](uint8_t a, uint8_t b, const vec3& p) {
         if (std::max(a, b) >= kLid) {
@@ -77,7 +77,11 @@ Sculpture sculptBust() {
                                                            : 1.0f;
     };
     recipe.normal = [](uint8_t, const vec3& p) { return fieldNormal(bustDistance, p); };
-    return assemble(bustMesh(), recipe);
+    return recipe;
+}
+
+Sculpture sculptBust() {
+    return assemble(bustHalf(), bustRecipe());
 }
 
 const Sculpture& sharedBust() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "resources/samples/source/assemble.h"
 #include "resources/samples/source/sculpt.h"
 
 #include <glm/glm.hpp>
@@ -20,6 +21,10 @@ struct BustMarks {
     float lips, lid, lash;
 };
 BustMarks bustMarks(const glm::vec3& p);
+
+/// The bust before it is cut and packed, and how to do that; regions below 16. For sculptures that wear something.
+HalfMesh bustHalf();
+Recipe bustRecipe();
 
 /// The bust, built once and kept for the painters.
 const Sculpture& sharedBust();

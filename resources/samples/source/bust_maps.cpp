@@ -88,7 +88,11 @@ ScalarImage bustBrowDensity(int size) {
 }
 
 ColourImage bustSkin(int size) {
-    return paintColour(sharedBust(), size, [](const PaintPoint& point) {
+    return bustSkin(sharedBust(), size);
+}
+
+ColourImage bustSkin(const Sculpture& sculpture, int size) {
+    return paintColour(sculpture, size, [](const PaintPoint& point) {
         if (point.part != 0) {
             return vec3(0.045f, 0.045f, 0.050f);
         }

@@ -11,6 +11,8 @@ namespace whorl::samples {
 
 /// A mannequin bust with swept-back hair and eyebrows.
 Result<Groom> bustGroom(Progress& progress);
+/// The bust with long hair that is a shell of triangles: strokes and a parting lead hair texture over it.
+Result<Groom> bobGroom(Progress& progress);
 /// A furry creature: pattern in a colour map, lengths in a length map.
 Result<Groom> creatureGroom(Progress& progress);
 /// A cushion with a lock of plain hair, to try parameters on.

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(argv[1], ignored);
     const bool bust = make("bust", samples::bustGroom, argv[1]);
     const bool creature = make("creature", samples::creatureGroom, argv[1]);
+    const bool bob = make("bob", samples::bobGroom, argv[1]);
     const bool swatch = make("swatch", samples::swatchGroom, argv[1]);
-    return bust && creature && swatch ? 0 : 1;
+    return bust && bob && creature && swatch ? 0 : 1;
 }

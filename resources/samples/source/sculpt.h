@@ -43,6 +43,13 @@ Sculpture sculptBust();
 ScalarImage bustScalpDensity(int size);
 ScalarImage bustBrowDensity(int size);
 ColourImage bustSkin(int size);
+/// The same for a sculpture whose first part is the bust's skin.
+ColourImage bustSkin(const Sculpture& sculpture, int size);
+
+/// The bust under a shell of chin-long hair: parts skin, foot, hair, and the shell's inside.
+Sculpture sculptBob();
+/// 1 on the hair, less where it ends.
+ScalarImage bobDensity(int size);
 
 Sculpture sculptCreature();
 ScalarImage creatureDensity(int size);
