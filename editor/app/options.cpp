@@ -23,12 +23,17 @@ BrushSettings BrushOptions::settings(bool invert) const {
     return brush;
 }
 
+int ViewOptions::licSize() const {
+    return showHair && !heat && hairAs.index != 0 ? 512 << textureSize.index : 0;
+}
+
 ViewSettings ViewOptions::settings() const {
     ViewSettings view;
     view.showMesh = showMesh;
     view.showTexture = showTexture;
     view.heat = heat;
-    view.showHair = showHair && !heat;
+    view.showHair = showHair && !heat && hairAs.index != 1;
+    view.showLic = licSize() > 0;
     view.showGuides = showGuides && !heat;
     view.overlayOpacity = overlayOpacity;
     view.shading = HairShading::KajiyaKay;

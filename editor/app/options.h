@@ -83,12 +83,16 @@ struct BrushOptions {
     bool operator==(const BrushOptions&) const = default;
 };
 
+inline constexpr std::array<std::string_view, 3> hairAsNames{"Hair", "Texture", "Both"};
+inline constexpr std::array<std::string_view, 4> textureSizeNames{"512", "1024", "2048", "4096"};
 inline constexpr std::array<std::string_view, 1> shadingNames{"Kajiya-Kay"};
 inline constexpr std::array<std::string_view, 2> shadowNames{"None", "Voxels"};
 
 /// ViewSettings as a block of parameters.
 struct ViewOptions {
     bool showHair = true;
+    Choice hairAs{};
+    Choice textureSize{1};
     bool showGuides = true;
     bool showMesh = true;
     bool showTexture = true;
@@ -114,6 +118,19 @@ struct ViewOptions {
     template <class Self, class Visit>
     static void each(Self& self, Visit&& visit) {
         visit(ParamInfo{.id = "show_hair", .label = "Hair", .tip = "Shows the hair."}, self.showHair);
+        visit(ParamInfo{.id = "hair_as",
+                        .label = "Hair as",
+                        .tip =
+                            "Hair: each one drawn. Texture: painted on the model along the directions. Both: hair with "
+                            "its texture below it.",
+                        .choices = hairAsNames},
+              self.hairAs);
+        visit(ParamInfo{.id = "texture_size",
+                        .label = "Texture detail",
+                        .tip =
+                            "Texels of the hair texture's side. More show finer hairs and follow a stroke more slowly.",
+                        .choices = textureSizeNames},
+              self.textureSize);
         visit(ParamInfo{.id = "show_guides",
                         .label = "Guides",
                         .tip = "Shows the guides over the hair while a guide tool is picked."},
@@ -223,6 +240,8 @@ struct ViewOptions {
               self.minPixelWidth);
     }
     ViewSettings settings() const;
+    /// Texels a side of hair texture; 0 while none is shown.
+    int licSize() const;
     bool operator==(const ViewOptions&) const = default;
 };
 

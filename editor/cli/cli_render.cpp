@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
 #include "core/io/image.h"
+#include "core/lic/live_texture.h"
 #include "editor/cli/cli.h"
 #include "render/offscreen.h"
 
@@ -16,6 +17,7 @@ struct Options {
     std::string shadows = "voxel";
     std::string camera = "front";
     std::string map;
+    int texture = 2048;
     std::optional<std::uint32_t> count;
 };
 
@@ -40,10 +42,17 @@ Outcome render(const Options& options) {
     const auto surface = std::make_shared<const Surface>(groom->mesh);
     ViewSettings settings;
     settings.shadows = options.shadows == "none" ? ShadowMode::None : ShadowMode::Voxel;
-    settings.showHair = options.view == "hair";
+    settings.showHair = options.view == "hair" || options.view == "both";
+    settings.showLic = options.view == "lic" || options.view == "both";
     settings.showGuides = options.view == "guides";
     settings.overlayMap = options.map;
 
+    std::shared_ptr<const LicTexture> texture;
+    if (settings.showLic) {
+        auto made = LiveTexture().update(*groom, surface, options.texture, progress());
+        if (!made) return badInput(made.error());
+        texture = std::move(*made);
+    }
     Bounds bounds = surface->bounds;
     std::shared_ptr<Strands> strands;
     if (settings.showHair) {
@@ -55,7 +64,7 @@ Outcome render(const Options& options) {
         if (!made) return badInput(made.error());
         strands = std::make_shared<Strands>(std::move(*made));
         if (strands->count() > 0) bounds.add(strands->bounds());
-    } else {
+    } else if (settings.showGuides) {
         for (std::size_t i = 0; i < groom->guides.count(); ++i) {
             for (const glm::vec3& p : groom->guides.points(i)) bounds.add(p);
         }
@@ -66,6 +75,7 @@ Outcome render(const Options& options) {
     if (!renderer) return badInput(renderer.error());
     renderer->renderer().setGroom(*groom, surface);
     renderer->renderer().setStrands(strands);
+    renderer->renderer().setLicTexture(texture);
     const Picture picture = renderer->draw(*camera, settings, {}, static_cast<int>(*width), static_cast<int>(*height));
     if (picture.pixels.empty())
         return badInput({"The picture could not be drawn; is it too large for the graphics card?"});
@@ -84,11 +94,16 @@ void addRender(CLI::App& app) {
     program->add_option("FILE", options->file, "Mesh, .whorl or .groom")->required();
     program->add_option("-o,--output", options->output, "Image to write: png, jpg, tif, exr or tga")->required();
     program->add_option("--size", options->size, "WIDTHxHEIGHT in pixels; 1280x720 without it");
-    program->add_option("--view", options->view, "hair or guides")->check(CLI::IsMember({"hair", "guides"}));
+    program
+        ->add_option("--view", options->view,
+                     "hair; lic: texture painted on the model; both: hair over its texture; or guides")
+        ->check(CLI::IsMember({"hair", "lic", "both", "guides"}));
     program->add_option("--shading", options->shading, "kajiya-kay")->check(CLI::IsMember({"kajiya-kay"}));
     program->add_option("--shadows", options->shadows, "none or voxel")->check(CLI::IsMember({"none", "voxel"}));
     program->add_option("--camera", options->camera,
                         "front, back, left, right, side, top, three-quarter or AZIMUTH,ELEVATION in degrees");
+    program->add_option("--texture", options->texture, "Texels a side of hair texture; 2048 without it")
+        ->check(CLI::Range(1, LicPainter::maxSize));
     program->add_option("--map", options->map, "Map to show in colour over the mesh");
     program->add_option("--count", options->count, "Hairs instead of the groom's number")
         ->check(CLI::Range(0u, 10000000u));

@@ -4,10 +4,14 @@
 #include "core/commands/command_list.h"
 #include "core/hair/generate.h"
 #include "core/io/image.h"
+#include "core/lic/live_texture.h"
 #include "core/param/path.h"
 #include "render/offscreen.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -21,6 +25,8 @@ using Arguments = std::span<const std::string>;
 constexpr int textHeight = 26;
 /// Where less than this share of the pixels differs clearly, two pictures show the same.
 constexpr double leastDifference = 0.002;
+/// Texels a side of hair texture.
+constexpr int textureSize = 2048;
 
 class Studio {
 public:
@@ -43,6 +49,28 @@ public:
             m_width = *width;
             m_height = *height;
         }
+        return std::string();
+    }
+
+    Result<std::string> show(CommandContext&, Arguments arguments, Progress&) {
+        const std::string what = arguments.size() == 1 ? arguments[0] : std::string();
+        if (what != "hair" && what != "lic" && what != "both" && what != "guides")
+            return usageError("show hair|lic|both|guides");
+        m_settings.showHair = what == "hair" || what == "both";
+        m_settings.showLic = what == "lic" || what == "both";
+        m_settings.showGuides = what == "guides";
+        return std::string();
+    }
+
+    Result<std::string> light(CommandContext&, Arguments arguments, Progress&) {
+        const std::size_t comma = arguments.size() == 1 ? arguments[0].find(',') : std::string::npos;
+        if (comma == std::string::npos) return usageError("light AZIMUTH,ELEVATION");
+        const auto azimuth = numberFrom<float>(arguments[0].substr(0, comma), -360.0f, 360.0f);
+        const auto elevation = numberFrom<float>(arguments[0].substr(comma + 1), -90.0f, 90.0f);
+        if (!azimuth || !elevation)
+            return Error{"A light is at AZIMUTH,ELEVATION in degrees, not \"" + arguments[0] + "\"."};
+        const float a = glm::radians(*azimuth), e = glm::radians(*elevation);
+        m_settings.lightDirection = {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
         return std::string();
     }
 
@@ -162,19 +190,30 @@ private:
         }
         const std::shared_ptr<const Surface> surface = context.surfaces.get(groom.mesh);
         m_generator.setSurface(surface);
-        GenerateOptions options;
-        options.time = m_time;
-        auto strands = m_generator.generateShared(groom, options, progress);
-        if (!strands) return strands.error();
+        std::shared_ptr<const Strands> strands;
+        if (m_settings.showHair) {
+            GenerateOptions options;
+            options.time = m_time;
+            auto made = m_generator.generateShared(groom, options, progress);
+            if (!made) return made.error();
+            strands = std::move(*made);
+        }
+        std::shared_ptr<const LicTexture> texture;
+        if (m_settings.showLic) {
+            auto made = m_texture.update(groom, surface, textureSize, progress);
+            if (!made) return made.error();
+            texture = std::move(*made);
+        }
         const glm::vec2 size(static_cast<float>(m_width), static_cast<float>(m_height));
         auto camera = Camera::named(m_camera, surface->bounds, size);
         if (!camera) return camera.error();
         camera->zoom(m_nearer);
         m_renderer->renderer().setGroom(groom, surface);
-        m_renderer->renderer().setStrands(*strands);
+        m_renderer->renderer().setStrands(strands);
+        m_renderer->renderer().setLicTexture(texture);
         OverlayState overlay;
         overlay.text = label;
-        Picture picture = m_renderer->draw(*camera, ViewSettings(), overlay, m_width, m_height);
+        Picture picture = m_renderer->draw(*camera, m_settings, overlay, m_width, m_height);
         if (picture.pixels.empty())
             return Error{"The picture could not be drawn; is it too large for the graphics card?"};
         return picture;
@@ -186,7 +225,9 @@ private:
     int m_height = 360;
     float m_time = 0.0f;
     std::vector<std::vector<Picture>> m_rows;
+    ViewSettings m_settings;
     Generator m_generator;
+    LiveTexture m_texture;
     std::optional<OffscreenRenderer> m_renderer;
 };
 
@@ -205,6 +246,11 @@ std::vector<Command> pictureCommands() {
     add("camera", "camera CAMERA [NEARER] [WIDTHxHEIGHT]",
         "For pictures: front, back, left, right, side, top, three-quarter or AZIMUTH,ELEVATION in degrees; a factor.",
         &Studio::camera);
+    add("show", "show hair|lic|both|guides",
+        "What pictures show: hair, the texture of it on the model (lic), hair over its texture, or guides.",
+        &Studio::show);
+    add("light", "light AZIMUTH,ELEVATION",
+        "Where the light of pictures comes from, in degrees; it turns with the camera.", &Studio::light);
     add("time", "time SECONDS", "The time of pictures, for animated frizz.", &Studio::time);
     add("render", "render IMAGE", "Draws the model with its hair into a picture.", &Studio::render);
     add("row", "row", "Begins a row of a sheet.", &Studio::row);

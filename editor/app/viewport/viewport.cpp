@@ -53,8 +53,10 @@ Viewport::Viewport(Document& document, EditorState& state, QWidget* parent)
         Q_EMIT hintChanged(hint());
         requestHeat();
         requestHair();
+        requestLic();
         update();
     });
+    connect(&m_lic, &LicJob::delivered, this, qOverload<>(&QWidget::update));
     connect(&m_heat, &HeatJob::delivered, this, qOverload<>(&QWidget::update));
     connect(&m_hair, &HairJob::delivered, this, [this](std::shared_ptr<const Strands> strands) {
         m_strands = std::move(strands);
@@ -95,11 +97,12 @@ void Viewport::paintGL() {
     const std::shared_ptr<const Surface> surface = m_document.surface();
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
+    m_renderer->setLicTexture(m_lic.texture());
     m_renderer->setTriangleColours(m_heat.colours());
     if (std::exchange(m_lookedChanged, false)) m_renderer->setHighlight(m_looked, m_lookedBy);
     ViewSettings settings = viewSettings();
     // Until the hair is there, a quick picture: the final one would be drawn twice.
-    settings.interactive = interacting() || m_hair.busy();
+    settings.interactive = interacting() || m_hair.busy() || m_lic.busy();
     const double ratio = devicePixelRatio();
     const glm::ivec2 size(static_cast<int>(width() * ratio), static_cast<int>(height() * ratio));
     m_renderer->draw(m_camera, settings, overlay(), defaultFramebufferObject(), size);
@@ -145,6 +148,7 @@ void Viewport::documentChanged() {
     if (m_stroke.active() && !m_document.previewing()) m_stroke.drop();
     const bool otherMesh = !m_document.groom().mesh.sameAs(m_seen.mesh);
     requestHair();
+    requestLic();
     if (otherMesh) {
         lookFrom("three-quarter");
         frameAll();
@@ -190,6 +194,16 @@ void Viewport::pick(glm::vec2 pixel) {
     Q_EMIT hairPicked(hair ? std::optional(m_strands->ids[*hair]) : std::nullopt);
 }
 
+void Viewport::requestLic() {
+    const int size = m_state.viewOptions().licSize();
+    if (size == 0) return;
+    const Groom& groom = m_document.groom();
+    if (size == m_licSize && !LiveTexture::differs(m_licSeen, groom)) return;
+    m_licSeen = groom;
+    m_licSize = size;
+    m_lic.request(groom, m_document.surface(), size, m_document.previewing());
+}
+
 void Viewport::requestHeat() {
     if (!m_state.viewOptions().heat || !m_strands || m_strands == m_heatStrands) return;
     m_heatStrands = m_strands;
@@ -206,7 +220,7 @@ void Viewport::interacted() {
 }
 
 bool Viewport::settled() const {
-    return !interacting() && !m_hair.busy() && !m_heat.busy();
+    return !interacting() && !m_hair.busy() && !m_heat.busy() && !m_lic.busy();
 }
 
 Bounds Viewport::sceneBounds() const {

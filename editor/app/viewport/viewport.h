@@ -6,6 +6,7 @@
 #include "editor/app/editor_state.h"
 #include "editor/app/hair_job.h"
 #include "editor/app/heat_job.h"
+#include "editor/app/lic_job.h"
 #include "editor/app/viewport/brush_adjust.h"
 #include "editor/app/viewport/navigation.h"
 #include "editor/app/viewport/stroke_input.h"
@@ -40,6 +41,7 @@ public:
     /// Nothing is being generated, and the picture is the final one.
     bool settled() const;
     std::shared_ptr<const Strands> strands() const { return m_strands; }
+    std::shared_ptr<const LicTexture> licTexture() const { return m_lic.texture(); }
     /// Draws a hair and the guides that shape it over everything; empty for none.
     void setHighlight(std::vector<glm::vec3> hair, std::vector<std::vector<glm::vec3>> guides);
     /// The view's settings with the tool's overlay, as they are drawn.
@@ -73,6 +75,7 @@ private:
     void documentChanged();
     void requestHair();
     void requestHeat();
+    void requestLic();
     void interacted();
     bool interacting() const;
     void press(glm::vec2 pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, float pressure);
@@ -95,6 +98,9 @@ private:
     BrushAdjust m_adjust;
     HairJob m_hair;
     HeatJob m_heat;
+    LicJob m_lic;
+    Groom m_licSeen;  // what the last request for hair texture was made from
+    int m_licSize = 0;
     std::shared_ptr<const Strands> m_heatStrands;  // that the newest request for colours was made from
     std::unique_ptr<Renderer> m_renderer;
     std::shared_ptr<const Strands> m_strands;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hair texture that the viewport shows, painted in the background.
+#pragma once
+
+#include "core/lic/live_texture.h"
+#include "editor/app/latest_job.h"
+
+#include <QObject>
+#include <memory>
+
+namespace whorl {
+
+/// Requests come from the GUI thread, results arrive there; results never arrive out of order.
+class LicJob : public QObject {
+    Q_OBJECT
+
+public:
+    explicit LicJob(QObject* parent = nullptr);
+    ~LicJob() override;
+
+    /// `interactive`: the artist is dragging; a texture that is being painted is finished and shown before the newest.
+    void request(const Groom& groom, std::shared_ptr<const Surface> surface, int size, bool interactive);
+    bool busy() const { return m_job.busy() || m_delivered != m_requested; }
+    /// Null until the first result.
+    std::shared_ptr<const LicTexture> texture() const { return m_texture; }
+    /// Milliseconds of the last one, field and texture.
+    double milliseconds() const { return m_milliseconds; }
+
+Q_SIGNALS:
+    void delivered();
+
+private:
+    void deliver(std::uint64_t serial, std::shared_ptr<const LicTexture> texture, double milliseconds);
+
+    LiveTexture m_live;  // used by the job's thread only
+    std::shared_ptr<const LicTexture> m_texture;
+    std::uint64_t m_requested = 0;
+    std::uint64_t m_delivered = 0;
+    double m_milliseconds = 0.0;
+    LatestJob m_job;  // last: its thread ends before the rest goes
+};
+
+}  // namespace whorl
