@@ -53,16 +53,19 @@ private:
     std::shared_ptr<const State> m_state;
 };
 
-/// What mesh, growing area and partings alone decide, made once: neighbours, turns between them, the order of the
-/// factorisation. Any thread may solve; they take turns.
+/// What mesh, growing area and partings alone decide, made once. It also keeps what the last solution leaves valid, so
+/// that solving again after one stroke has changed takes a fraction of the time; the field is the same to the last bit
+/// as that of a new solver. Any thread may solve; they take turns. Copies share all of it.
 class FieldSolver {
 public:
     /// `grows`: one a triangle. Fails only when cancelled.
     static Result<FieldSolver> make(std::shared_ptr<const Surface> surface, std::span<const std::uint8_t> grows,
                                     std::span<const Parting> partings, Progress& progress);
 
-    /// The field that follows `strokes`, or the default direction where there are none. Points of strokes outside the
-    /// growing area have no effect. Fails only when cancelled.
+    /// The field that follows `strokes`, and the default direction in pieces of the growing area (by border or parting
+    /// on their own) that no stroke touches. Points of strokes outside the growing area have no effect. Within the
+    /// radius of Attract, Repel and Whorl, measured over the skin, hair points to the line, from it or around the first
+    /// point; towards the rim that blends into what is around. Fails only when cancelled.
     Result<DirectionField> solve(std::span<const FieldStroke> strokes, const FieldParams& params,
                                  Progress& progress) const;
     /// The default direction alone: downhill along `gravity`, and away from near partings. Not smoothed.

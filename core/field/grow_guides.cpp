@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace whorl {
@@ -23,44 +24,115 @@ glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
     return length > 1e-9f ? v / length : otherwise;
 }
 
-/// The guide's new points; empty where the field has no direction at its root.
-std::vector<glm::vec3> grown(const Surface& surface, const SkinClearance& skin, const DirectionField& field,
-                             const GrowAlong& options, const SurfacePoint& root, std::size_t count, float length) {
-    const SurfaceMesh& mesh = surface.mesh();
-    glm::vec3 along = field.at(root);
-    if (along == glm::vec3(0.0f) || count < 2 || !(length > 0.0f)) return {};
-    std::vector<glm::vec3> points{positionAt(mesh, root)};
-    glm::vec3 up = normalAt(mesh, root);
-    const float step = length / static_cast<float>(count - 1);
-    SkinWalk walk{skin};
-    const float lift = glm::clamp(options.lift, 0.0f, 1.0f);
-    for (std::size_t k = 1; k < count; ++k) {
-        const float t = static_cast<float>(k - 1) / static_cast<float>(count - 1);
-        // The angle to the skin falls from root to tip and ends lying on it.
-        const float angle = lift * (1.0f - t) * (1.0f - t) * std::numbers::pi_v<float> * 0.5f;
-        const glm::vec3 heading = along * std::cos(angle) + up * std::sin(angle) + options.gravity * (t * t);
-        const glm::vec3 from = points.back();
-        const glm::vec3 to = placeNext(walk, from, from + unitOr(heading, along) * step, along, step);
-        const auto hit = surface.query.nearest(to);
-        if (hit) {
-            const glm::vec3 normal = normalAt(mesh, hit->point);
-            // Beyond the growing area hair goes on as it came, turned along with the skin.
-            const glm::vec3 here = field.at(hit->point);
-            along = here != glm::vec3(0.0f) ? here : unitOr(along - normal * glm::dot(normal, along), along);
-            up = normal;
-        }
-        points.push_back(to);
-    }
-    return points;
+/// Radius of the tightest bend, in lengths of the hair.
+constexpr float tightestBend = 0.25f;
+/// Cosine of the angle from which on the field is against the hair: behind a point or line that it leads to.
+constexpr float against = -0.2f;
+
+glm::vec3 onSkin(const glm::vec3& v, const glm::vec3& normal) {
+    return v - normal * glm::dot(normal, v);
 }
+
+/// One hair on its way over the skin.
+class Grower {
+public:
+    Grower(const Surface& surface, const SkinClearance& skin, const DirectionField& field, const GrowAlong& options)
+        : m_surface(surface), m_field(field), m_options(options), m_walk{skin} {}
+
+    /// The points of a hair; empty where the field has no direction at its root.
+    std::vector<glm::vec3> grow(const SurfacePoint& root, std::size_t count, float length) {
+        m_along = m_field.at(root);
+        if (m_along == glm::vec3(0.0f) || count < 2 || !(length > 0.0f)) return {};
+        const SurfaceMesh& mesh = m_surface.mesh();
+        m_up = normalAt(mesh, root);
+        m_under = root;
+        m_step = length / static_cast<float>(count - 1);
+        m_mostTurn = m_step / (tightestBend * length);
+        std::vector<glm::vec3> points{positionAt(mesh, root)};
+        for (std::size_t k = 1; k < count; ++k) {
+            const float t = (static_cast<float>(k) - 0.5f) / static_cast<float>(count - 1);
+            // The direction is that half way along the segment.
+            const glm::vec3 from = points.back();
+            follow(from + heading(t) * (0.5f * m_step), t);
+            points.push_back(placeNext(m_walk, from, from + heading(t) * m_step, m_along, m_step));
+        }
+        return points;
+    }
+
+private:
+    /// Where the hair goes after that share of its length; unit.
+    glm::vec3 heading(float t) const {
+        // The angle to the skin falls from root to tip and ends lying on it.
+        const float lift = glm::clamp(m_options.lift, 0.0f, 1.0f);
+        const float angle = lift * (1.0f - t) * (1.0f - t) * std::numbers::pi_v<float> * 0.5f;
+        return unitOr(m_along * std::cos(angle) + m_up * std::sin(angle) + m_options.down * (m_options.bend * t * t),
+                      m_along);
+    }
+
+    /// Takes on the direction of the skin under `place`.
+    void follow(const glm::vec3& place, float t) {
+        auto hit = m_surface.query.nearest(place);
+        if (!hit) return;
+        if (m_field.parted(m_under, hit->point)) {
+            const glm::vec3 from = place - heading(t) * (0.5f * m_step);
+            hit = aside(from, t);
+            if (!hit) return;
+        }
+        const glm::vec3 normal = normalAt(m_surface.mesh(), hit->point);
+        const glm::vec3 carried = unitOr(onSkin(minimalRotation(m_up, normal) * m_along, normal), m_along);
+        const glm::vec3 here = m_field.at(hit->point);
+        if (here == glm::vec3(0.0f)) {
+            // Hair does not creep back under what it has left, such as a chin.
+            if (glm::dot(carried, m_options.down) < glm::dot(m_along, m_options.down) - 1e-3f) return;
+            m_along = carried;
+        } else {
+            m_along = turned(carried, here, normal);
+        }
+        m_up = normal;
+        m_under = hit->point;
+    }
+
+    /// Turns towards `wanted`, both along the skin, by no more than a hair bends.
+    glm::vec3 turned(const glm::vec3& from, const glm::vec3& wanted, const glm::vec3& normal) const {
+        const float cosine = glm::dot(from, wanted);
+        if (cosine < against) return from;
+        const float angle = std::atan2(glm::dot(normal, glm::cross(from, wanted)), cosine);
+        const float turn = glm::clamp(angle, -m_mostTurn, m_mostTurn);
+        return from * std::cos(turn) + glm::cross(normal, from) * std::sin(turn);
+    }
+
+    /// Turns the hair just so far that it stays on its side of a parting; the place under it then.
+    std::optional<SurfaceHit> aside(const glm::vec3& from, float t) {
+        const glm::vec3 before = m_along, left = glm::cross(m_up, m_along);
+        for (const float degrees : {15.0f, -15.0f, 30.0f, -30.0f, 50.0f, -50.0f, 70.0f, -70.0f, 90.0f, -90.0f}) {
+            const float turn = degrees * std::numbers::pi_v<float> / 180.0f;
+            m_along = before * std::cos(turn) + left * std::sin(turn);
+            const auto hit = m_surface.query.nearest(from + heading(t) * (0.5f * m_step));
+            if (hit && !m_field.parted(m_under, hit->point)) return hit;
+        }
+        m_along = before;
+        return std::nullopt;
+    }
+
+    const Surface& m_surface;
+    const DirectionField& m_field;
+    const GrowAlong& m_options;
+    SkinWalk m_walk;
+    SurfacePoint m_under;  // nearest place of the skin
+    glm::vec3 m_along{0.0f}, m_up{0.0f};
+    float m_step = 0.0f;
+    float m_mostTurn = 0.0f;  // a segment, radians
+};
 
 }  // namespace
 
 GrowAlong growAlong(const FieldParams& params) {
     const float pull = glm::length(params.gravity.value);
-    GrowAlong how{.length = params.length.value, .lengthMap = params.length.map, .lift = params.lift};
-    if (pull > 0.0f) how.gravity = params.gravity.value * (params.bend / pull);
-    return how;
+    return {.length = params.length.value,
+            .lengthMap = params.length.map,
+            .lift = params.lift,
+            .bend = params.bend,
+            .down = pull > 0.0f ? params.gravity.value / pull : glm::vec3(0.0f)};
 }
 
 Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
@@ -78,7 +150,7 @@ Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const Directi
             // A guide keeps a direction even where the map is black.
             if (options.length > 0.0f && lengths && !lengths->empty())
                 length *= std::max(lengths->sample(uvAt(surface.mesh(), root)), shortest);
-            shapes[i] = grown(surface, skin, field, options, root, points.size(), length);
+            shapes[i] = Grower(surface, skin, field, options).grow(root, points.size(), length);
         }
     });
     if (progress.cancelled()) return cancelledError();

@@ -14,16 +14,19 @@ struct GrowAlong {
     std::string lengthMap{};  ///< a map of the groom that `length` is multiplied by at the root; may be empty
     /// How guides leave the skin: 0 flat along it, 1 straight up; they lie down towards their tips.
     float lift = 0.25f;
-    int group = -1;           ///< guides of this group only; -1: of all
-    glm::vec3 gravity{0.0f};  ///< bends tips further: direction times strength, 1 a lot
+    int group = -1;                     ///< guides of this group only; -1: of all
+    float bend = 0.0f;                  ///< how much tips are bent to where hair hangs; 1 a lot
+    glm::vec3 down{0.0f, -1.0f, 0.0f};  ///< where hair hangs to; unit, or zero for nowhere
 };
 
 /// What the artist's parameters ask for. For guides of all groups.
 GrowAlong growAlong(const FieldParams& params);
 
 /// Gives every guide of `groom` a new shape from its root: along `field` over the skin, outside of it, with segments of
-/// equal length. Guides where the field has no direction stay as they are. `surface` is that of the groom's mesh. Fails
-/// only when cancelled, with `groom` as it was.
+/// equal length. Hair bends no tighter than a quarter of its length, so that it leaves the middle of a whorl in a
+/// spiral; where directions meet head-on it goes straight on; it turns aside at partings; beyond the growing area it
+/// lies on the skin only where that lets it hang lower. Guides where the field has no direction stay as they are.
+/// `surface` is that of the groom's mesh. Fails only when cancelled, with `groom` as it was.
 Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
                              const GrowAlong& options, Progress& progress);
 

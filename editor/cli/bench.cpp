@@ -19,6 +19,7 @@ std::vector<BenchRow> benchPackage();
 std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchPaint();
 std::vector<BenchRow> benchDraw();
+std::vector<BenchRow> benchField();
 
 std::span<const Bench> benches() {
     static const std::array list{
@@ -33,6 +34,7 @@ std::span<const Bench> benches() {
         Bench{"package", "Packages, against the hair that they stand for as it is", benchPackage},
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
+        Bench{"field", "Directions of hair after one stroke has moved, against factorising anew", benchField},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
     };
     return list;

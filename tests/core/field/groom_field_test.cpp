@@ -78,7 +78,8 @@ private Q_SLOTS:
         params.length.value = 0.03f;
         params.length.map = "length";
         const GrowAlong how = growAlong(params);
-        QCOMPARE(how.gravity, glm::vec3(0, 0, 0.5f));
+        QCOMPARE(how.down, glm::vec3(0, 0, 1));
+        QCOMPARE(how.bend, 0.5f);
         QCOMPARE(how.lift, 0.7f);
         // Half as long on one side.
         Map map(4, 1, 1, TexelFormat::F32, 1.0f);
