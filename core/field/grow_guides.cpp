@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 namespace whorl {
@@ -28,9 +27,21 @@ glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
 constexpr float tightestBend = 0.25f;
 /// Cosine of the angle from which on the field is against the hair: behind a point or line that it leads to.
 constexpr float against = -0.2f;
+/// Cosine of the angle from which on skin beyond the growing area stands in the hair's way.
+constexpr float wall = 0.4f;
 
 glm::vec3 onSkin(const glm::vec3& v, const glm::vec3& normal) {
     return v - normal * glm::dot(normal, v);
+}
+
+/// Unit vector `from` turned to unit vector `to`, but by `most` radians at most.
+glm::vec3 towards(const glm::vec3& from, const glm::vec3& to, float most) {
+    const float cosine = glm::dot(from, to);
+    const glm::vec3 across = to - from * cosine;
+    const float sine = glm::length(across);
+    if (!(sine > 1e-3f)) return from;
+    const float turn = std::min(std::atan2(sine, cosine), most);
+    return from * std::cos(turn) + across * (std::sin(turn) / sine);
 }
 
 /// One hair on its way over the skin.
@@ -51,9 +62,10 @@ public:
         std::vector<glm::vec3> points{positionAt(mesh, root)};
         for (std::size_t k = 1; k < count; ++k) {
             const float t = (static_cast<float>(k) - 0.5f) / static_cast<float>(count - 1);
-            // The direction is that half way along the segment.
             const glm::vec3 from = points.back();
-            follow(from + heading(t) * (0.5f * m_step), t);
+            // The direction is that half way along the segment.
+            follow(from + heading(t) * (0.5f * m_step));
+            keepSide(from, t);
             points.push_back(placeNext(m_walk, from, from + heading(t) * m_step, m_along, m_step));
         }
         return points;
@@ -70,26 +82,32 @@ private:
     }
 
     /// Takes on the direction of the skin under `place`.
-    void follow(const glm::vec3& place, float t) {
-        auto hit = m_surface.query.nearest(place);
-        if (!hit) return;
-        if (m_field.parted(m_under, hit->point)) {
-            const glm::vec3 from = place - heading(t) * (0.5f * m_step);
-            hit = aside(from, t);
-            if (!hit) return;
-        }
+    void follow(const glm::vec3& place) {
+        const auto hit = m_surface.query.nearest(place);
+        if (!hit || m_field.parted(m_under, hit->point)) return;
         const glm::vec3 normal = normalAt(m_surface.mesh(), hit->point);
-        const glm::vec3 carried = unitOr(onSkin(minimalRotation(m_up, normal) * m_along, normal), m_along);
         const glm::vec3 here = m_field.at(hit->point);
         if (here == glm::vec3(0.0f)) {
-            // Hair does not creep back under what it has left, such as a chin.
-            if (glm::dot(carried, m_options.down) < glm::dot(m_along, m_options.down) - 1e-3f) return;
-            m_along = carried;
+            leave(normal);
         } else {
-            m_along = turned(carried, here, normal);
+            m_along = turned(unitOr(onSkin(minimalRotation(m_up, normal) * m_along, normal), m_along), here, normal);
+            m_up = normal;
         }
+    }
+
+    /// Goes on over skin where nothing grows.
+    void leave(const glm::vec3& normal) {
+        const float into = -glm::dot(m_along, normal);
+        if (into > wall) {
+            // Such as the back of an ear: hair slides off downward.
+            m_along = towards(m_along, unitOr(onSkin(m_along + m_options.down, normal), m_along), 2.0f * m_mostTurn);
+            return;
+        }
+        const glm::vec3 carried = unitOr(onSkin(minimalRotation(m_up, normal) * m_along, normal), m_along);
+        // Hair does not creep back under what it has left, such as a chin, nor stand off behind it.
+        if (glm::dot(carried, m_options.down) > glm::dot(m_along, m_options.down) - 1e-3f) m_along = carried;
         m_up = normal;
-        m_under = hit->point;
+        if (m_options.down != glm::vec3(0.0f)) m_along = towards(m_along, m_options.down, 0.5f * m_mostTurn);
     }
 
     /// Turns towards `wanted`, both along the skin, by no more than a hair bends.
@@ -101,24 +119,26 @@ private:
         return from * std::cos(turn) + glm::cross(normal, from) * std::sin(turn);
     }
 
-    /// Turns the hair just so far that it stays on its side of a parting; the place under it then.
-    std::optional<SurfaceHit> aside(const glm::vec3& from, float t) {
+    /// Turns the hair just so far that its next point stays on its side of a parting.
+    void keepSide(const glm::vec3& from, float t) {
         const glm::vec3 before = m_along, left = glm::cross(m_up, m_along);
-        for (const float degrees : {15.0f, -15.0f, 30.0f, -30.0f, 50.0f, -50.0f, 70.0f, -70.0f, 90.0f, -90.0f}) {
+        for (const float degrees :
+             {0.0f, 15.0f, -15.0f, 30.0f, -30.0f, 50.0f, -50.0f, 70.0f, -70.0f, 90.0f, -90.0f, 120.0f, -120.0f}) {
             const float turn = degrees * std::numbers::pi_v<float> / 180.0f;
             m_along = before * std::cos(turn) + left * std::sin(turn);
-            const auto hit = m_surface.query.nearest(from + heading(t) * (0.5f * m_step));
-            if (hit && !m_field.parted(m_under, hit->point)) return hit;
+            const auto hit = m_surface.query.nearest(from + heading(t) * m_step);
+            if (!hit || m_field.parted(m_under, hit->point)) continue;
+            m_under = hit->point;
+            return;
         }
         m_along = before;
-        return std::nullopt;
     }
 
     const Surface& m_surface;
     const DirectionField& m_field;
     const GrowAlong& m_options;
     SkinWalk m_walk;
-    SurfacePoint m_under;  // nearest place of the skin
+    SurfacePoint m_under;  // the skin nearest to the last point
     glm::vec3 m_along{0.0f}, m_up{0.0f};
     float m_step = 0.0f;
     float m_mostTurn = 0.0f;  // a segment, radians

@@ -25,7 +25,7 @@ GrowAlong growAlong(const FieldParams& params);
 /// Gives every guide of `groom` a new shape from its root: along `field` over the skin, outside of it, with segments of
 /// equal length. Hair bends no tighter than a quarter of its length, so that it leaves the middle of a whorl in a
 /// spiral; where directions meet head-on it goes straight on; it turns aside at partings; beyond the growing area it
-/// lies on the skin only where that lets it hang lower. Guides where the field has no direction stay as they are.
+/// comes to hang. Guides where the field has no direction stay as they are.
 /// `surface` is that of the groom's mesh. Fails only when cancelled, with `groom` as it was.
 Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const DirectionField& field,
                              const GrowAlong& options, Progress& progress);
