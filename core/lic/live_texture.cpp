@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/lic/live_texture.h"
 
+#include "core/base/parallel.h"
 #include "core/field/growing_area.h"
+
+#include <algorithm>
+#include <span>
 
 namespace whorl {
 namespace {
@@ -19,6 +23,35 @@ bool guidesLead(const Groom& groom) {
 bool strokesDiffer(const Groom& a, const Groom& b) {
     if (!a.field.sameAs(b.field) || !a.strokes.sameAs(b.strokes)) return true;
     return guidesLead(b) && !a.guides.sameAs(b.guides);
+}
+
+/// LicTexture::sides. A texel of a margin follows the place beside its triangle.
+LicTexture::Layer<std::uint8_t> sidesOfPartings(const Groom& groom, const DirectionField& field,
+                                                const TexelAtlas& atlas) {
+    if (groom.partings->empty()) return nullptr;
+    constexpr std::uint8_t all = 7;
+    const auto size = static_cast<std::size_t>(atlas.size());
+    std::vector<std::uint8_t> sides(size * size, all);
+    const std::span<const TexelAtlas::Slot> slots = atlas.slots();
+    const auto width = static_cast<std::uint32_t>(atlas.side());
+    parallelFor(slots.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const TexelAtlas::Slot& slot = slots[i];
+            const std::uint32_t x = slot.texel % width - TexelAtlas::pad, y = slot.texel / width - TexelAtlas::pad;
+            if (x >= size || y >= size) continue;
+            SurfacePoint here{slot.triangle, std::clamp(slot.u, 0.0f, 1.0f), std::clamp(slot.v, 0.0f, 1.0f)};
+            const float sum = here.u + here.v;
+            if (sum > 1.0f) here = {slot.triangle, here.u / sum, here.v / sum};
+            std::uint8_t own = 0;
+            for (int k = 0; k < 3; ++k) {
+                const SurfacePoint corner{slot.triangle, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f};
+                if (!field.parted(here, corner)) own = static_cast<std::uint8_t>(own | (1 << k));
+            }
+            const auto triangle = static_cast<std::uint8_t>(slot.triangle % 32 * 8);
+            sides[y * size + x] = static_cast<std::uint8_t>((own != 0 ? own : all) | triangle);
+        }
+    });
+    return std::make_shared<const std::vector<std::uint8_t>>(std::move(sides));
 }
 
 }  // namespace
@@ -74,6 +107,11 @@ Result<std::shared_ptr<const LicTexture>> LiveTexture::update(const Groom& groom
     }
     auto texture = m_painter->paint(groom, m_field, m_texture.get(), progress);
     if (!texture) return texture.error();
+    if (otherMesh || !m_texture || !groom.partings.sameAs(m_painted.partings)) {
+        texture->sides = sidesOfPartings(groom, m_field, m_painter->atlas());
+    } else {
+        texture->sides = m_texture->sides;
+    }
     m_texture = std::make_shared<const LicTexture>(std::move(*texture));
     m_painted = groom;
     return m_texture;

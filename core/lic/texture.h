@@ -23,6 +23,10 @@ struct LicTexture {
     Layer<std::uint8_t> colours;  ///< 3 * size * size: colour of the hair, sRGB
     Layer<glm::vec2> cornerUvs;   ///< 3 a triangle: those of the mesh, or an own atlas where they overlap
     Layer<glm::vec3> tangents;    ///< 3 a triangle: unit direction of the hair at the corner; zero: none grows
+    /// size * size: which corners of the texel's triangle lie on its side of all partings, a bit each (1, 2, 4), and
+    /// the triangle's number modulo 32 times 8; null: all do. Between corners on both sides there is no direction that
+    /// any hair has.
+    Layer<std::uint8_t> sides;
     /// Of `light`, from 0 to 1: what it is on average, and how far from that values usually are (standard deviation
     /// that the parameters lead to); drawn contrast is relative to them, so that no setting washes out.
     float mean = 0.5f;

@@ -20,6 +20,7 @@ std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchPaint();
 std::vector<BenchRow> benchDraw();
 std::vector<BenchRow> benchField();
+std::vector<BenchRow> benchLicDraw();
 
 std::span<const Bench> benches() {
     static const std::array list{
@@ -36,6 +37,7 @@ std::span<const Bench> benches() {
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
         Bench{"field", "Directions of hair after one stroke has moved, against factorising anew", benchField},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
+        Bench{"lic-draw", "Frames with hair texture, against the bare mesh; uploads of dabs", benchLicDraw},
     };
     return list;
 }

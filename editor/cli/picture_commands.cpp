@@ -62,6 +62,15 @@ public:
         return std::string();
     }
 
+    Result<std::string> lookAt(CommandContext&, Arguments arguments, Progress&) {
+        if (arguments.size() != 1) return usageError("look-at X,Y,Z|model");
+        m_target.reset();
+        if (arguments[0] == "model") return std::string();
+        m_target = pointFrom(arguments[0]);
+        if (!m_target) return usageError("look-at X,Y,Z|model");
+        return std::string();
+    }
+
     Result<std::string> light(CommandContext&, Arguments arguments, Progress&) {
         const std::size_t comma = arguments.size() == 1 ? arguments[0].find(',') : std::string::npos;
         if (comma == std::string::npos) return usageError("light AZIMUTH,ELEVATION");
@@ -207,6 +216,7 @@ private:
         const glm::vec2 size(static_cast<float>(m_width), static_cast<float>(m_height));
         auto camera = Camera::named(m_camera, surface->bounds, size);
         if (!camera) return camera.error();
+        if (m_target) camera->target = *m_target;
         camera->zoom(m_nearer);
         m_renderer->renderer().setGroom(groom, surface);
         m_renderer->renderer().setStrands(strands);
@@ -220,6 +230,7 @@ private:
     }
 
     std::string m_camera = "three-quarter";
+    std::optional<glm::vec3> m_target;
     float m_nearer = 1.0f;
     int m_width = 480;
     int m_height = 360;
@@ -246,6 +257,8 @@ std::vector<Command> pictureCommands() {
     add("camera", "camera CAMERA [NEARER] [WIDTHxHEIGHT]",
         "For pictures: front, back, left, right, side, top, three-quarter or AZIMUTH,ELEVATION in degrees; a factor.",
         &Studio::camera);
+    add("look-at", "look-at X,Y,Z|model", "The middle of pictures: a place in metres, or that of the model.",
+        &Studio::lookAt);
     add("show", "show hair|lic|both|guides",
         "What pictures show: hair, the texture of it on the model (lic), hair over its texture, or guides.",
         &Studio::show);

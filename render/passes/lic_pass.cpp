@@ -12,12 +12,13 @@ namespace whorl {
 namespace {
 
 constexpr int side = MipImage::tileSize;
+constexpr std::uint8_t allSides = 7;
 
 /// Marks tiles of a layer of `channels` bytes a texel that differ.
 void markChanges(const LicTexture::Layer<std::uint8_t>& before, const LicTexture::Layer<std::uint8_t>& now, int size,
                  std::size_t channels, std::vector<std::uint8_t>& changed) {
     if (before == now) return;
-    if (!before || before->size() != now->size()) {
+    if (!before || !now || before->size() != now->size()) {
         std::fill(changed.begin(), changed.end(), std::uint8_t{1});
         return;
     }
@@ -86,6 +87,7 @@ void LicPass::setTexture(std::shared_ptr<const LicTexture> texture, Uploads& upl
             std::fill(changed.begin(), changed.end(), std::uint8_t{1});
         markChanges(before->light, now.light, size, 1, changed);
         markChanges(before->cover, now.cover, size, 1, changed);
+        markChanges(before->sides, now.sides, size, 1, changed);
     }
     std::array<MipImage::Texel, 256> tones;
     for (std::size_t i = 0; i < tones.size(); ++i) {
@@ -105,6 +107,7 @@ void LicPass::setTexture(std::shared_ptr<const LicTexture> texture, Uploads& upl
                 // Where no hair lies there is no light to be told: what is around decides.
                 *out = cover > 0 ? tones[(*now.light)[at(row, x)]] : MipImage::Texel{128, 0, 0, 255};
                 (*out)[2] = cover;
+                (*out)[3] = now.sides ? (*now.sides)[at(row, x)] : allSides;
             }
         },
         sendTo(m_toneTexture));

@@ -8,6 +8,7 @@
 #include "lic.glsl"
 layout(location = 4) in vec3 tangent;
 layout(location = 5) in vec2 licUv;
+layout(location = 9) flat in int licTriangle;
 #endif
 #ifdef VERTEX_LIT
 layout(location = 0) in vec3 light;
@@ -15,6 +16,7 @@ layout(location = 1) in vec3 gloss;
 #ifdef LIC
 layout(location = 6) in vec3 position;
 layout(location = 7) in vec3 normal;
+layout(location = 8) in vec2 arrives;
 #endif
 #else
 layout(location = 0) in vec3 position;
@@ -78,9 +80,18 @@ void main() {
     if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
 #endif
 #ifdef LIC
-    LicHair hair = licHair(licUv, tangent, n, position, toEye);
+    LicHair hair = licHair(licUv, tangent, licTriangle, n, toEye);
+    // A map that is painted is seen through the hair that it makes.
+    hair.cover *= 1.0 - 0.5 * overlayOpacity;
+    vec3 hairColour = vec3(0.0);
+    if (hair.cover > 0.0) {
+#ifndef VERTEX_LIT
+        vec2 arrives = lightArriving(position, n);
+#endif
+        hairColour = licShade(hair, n, toEye, arrives);
+    }
     if (hair.cover >= 1.0) {
-        colour = vec4(licShade(hair, position, n, toEye), 1.0);
+        colour = vec4(hairColour, 1.0);
         return;
     }
 #endif
@@ -91,6 +102,6 @@ void main() {
 #endif
     colour = vec4(base * light + gloss, 1.0);
 #ifdef LIC
-    if (hair.cover > 0.0) colour.rgb = mix(colour.rgb, licShade(hair, position, n, toEye), hair.cover);
+    colour.rgb = mix(colour.rgb, hairColour, hair.cover);
 #endif
 }

@@ -23,9 +23,11 @@ layout(std430, binding = 5) readonly buffer LicUvs { vec2 licUvs[]; };
 layout(std430, binding = 6) readonly buffer LicTangents { float licTangents[]; };
 layout(location = 4) out vec3 tangent;
 layout(location = 5) out vec2 licUv;
+layout(location = 9) flat out int licTriangle;
 #ifdef VERTEX_LIT
 layout(location = 6) out vec3 position;
 layout(location = 7) out vec3 normal;
+layout(location = 8) out vec2 arrives;
 #endif
 #endif
 layout(std430, binding = 4) readonly buffer Colours { vec4 triangleColours[]; };
@@ -48,10 +50,14 @@ void main() {
     normal = vec3(normals[3u * vertex], normals[3u * vertex + 1u], normals[3u * vertex + 2u]);
 #ifdef VERTEX_LIT
     skinLight(position, normal, normalize(scene.eye.xyz - position), light, gloss);
+#ifdef LIC
+    arrives = lightArriving(position, normal);
+#endif
 #endif
     uv = uvs[gl_VertexID];
 #ifdef LIC
     licUv = licUvs[gl_VertexID];
+    licTriangle = gl_VertexID / 3;
     tangent = vec3(licTangents[3 * gl_VertexID], licTangents[3 * gl_VertexID + 1], licTangents[3 * gl_VertexID + 2]);
 #endif
     triangleColour = coloured != 0 ? triangleColours[gl_VertexID / 3] : vec4(0.0);

@@ -3,6 +3,11 @@
 #include "scene.glsl"
 #include "lighting.glsl"
 
+// Shares of the key light and of the surroundings that come to a place just outside the skin.
+vec2 lightArriving(vec3 position, vec3 n) {
+    return vec2(meshLight(position, n) * hairLight(position + n * 0.001), ambientLight(position + n * 0.004).w);
+}
+
 void skinLight(vec3 position, vec3 n, vec3 toEye, out vec3 light, out vec3 gloss) {
     vec4 ambient = ambientLight(position + n * 0.004);
     // Light that falls through hair reddens and spreads; skin below stays visible.

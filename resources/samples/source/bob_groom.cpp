@@ -11,7 +11,7 @@ HairParams bobHair() {
     HairParams hair;
     hair.general.density = {1.0f, "hair_density"};
     hair.colour.root.value = {0.030f, 0.013f, 0.007f};
-    hair.colour.tip.value = {0.110f, 0.044f, 0.018f};
+    hair.colour.tip.value = {0.070f, 0.029f, 0.013f};
     hair.colour.valueVariation.value = 0.25f;
     return hair;
 }
@@ -77,11 +77,11 @@ Result<Groom> bobGroom(Progress&) {
     if (auto done = draw(backLine, 1.0f); !done) return done.error();
 
     LicParams& lic = groom.lic.edit();
-    lic.length.value = 0.030f;
+    lic.length.value = 0.050f;
     lic.grain.value = 0.0008f;
     lic.colourPlace = 0.7f;
-    lic.specular = 0.6f;
-    lic.shininess = 60.0f;
+    lic.specular = 0.9f;
+    lic.shininess = 90.0f;
     lic.border = 0.004f;
     return groom;
 }
