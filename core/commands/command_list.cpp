@@ -10,6 +10,7 @@ std::vector<Command> coreCommands() {
     addGroupCommands(list);
     addModifierCommands(list);
     addPartingCommands(list);
+    addBakeCommands(list);
     addFieldCommands(list);
     addStrokeCommands(list);
     return list;

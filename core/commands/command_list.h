@@ -11,6 +11,7 @@
 namespace whorl {
 
 void addFileCommands(std::vector<Command>& list);
+void addBakeCommands(std::vector<Command>& list);
 void addEditCommands(std::vector<Command>& list);
 void addFieldCommands(std::vector<Command>& list);
 void addGroupCommands(std::vector<Command>& list);

@@ -226,12 +226,12 @@ Result<Map> readImage(std::span<const std::uint8_t> bytes, const std::string& na
     return decode(input, head, name, use, repairs);
 }
 
-Result<void> writeImage(const Map& map, const std::filesystem::path& file) {
+Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use) {
     const auto output = outputFormat(file);
     if (!output) return output.error();
     if (map.empty())
         return Error{plainText(file.filename().string()) + ": the map is empty; there is nothing to write."};
-    const bool colour = map.channels() == 3;
+    const bool colour = map.channels() == 3 && use == ImageUse::Colour;
     const bool encodedNow = colour && map.srgb;
     TexelFormat format = std::min(map.format(), output->widest);
     float (*convert)(float) = nullptr;

@@ -26,8 +26,9 @@ Result<Map> readImage(const std::filesystem::path& file, ImageUse use, std::vect
 Result<Map> readImage(std::span<const std::uint8_t> bytes, const std::string& name, ImageUse use,
                       std::vector<std::string>* repairs = nullptr);
 
-/// Format by suffix: png (8 or 16 bit), exr, tif, jpg, tga. Written beside the file and renamed.
-Result<void> writeImage(const Map& map, const std::filesystem::path& file);
+/// Format by suffix: png (8 or 16 bit), exr, tif, jpg, tga. Written beside the file and renamed. Colour: three channels
+/// are colour, encoded or not as the format wants it. Data: they are numbers and stay.
+Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use = ImageUse::Colour);
 
 /// Plain pixels, rows from the top, 8 bit sRGB, 3 or 4 channels: renders.
 Result<void> writePixels(std::span<const std::uint8_t> pixels, int width, int height, int channels,

@@ -39,4 +39,8 @@ struct LicTexture {
     bool empty() const { return size == 0; }
 };
 
+/// How light and dark hairs are told from the convolution, which varies the less the longer and finer hairs are.
+/// -1 to 1, 0 at the mean: steep around it, flat towards the ends. Colour is multiplied by 1 + contrast * tone.
+float licTone(float light, float mean, float deviation);
+
 }  // namespace whorl

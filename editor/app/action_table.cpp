@@ -34,6 +34,9 @@ void addFile(std::vector<ActionInfo>& table) {
                      false, "export"});
     table.push_back({"file.export_hair", tr("Export &Hair…"), "Ctrl+Shift+E",
                      tr("Writes the finished hairs as curves for other programs."), menu, A::Push, false, ""});
+    table.push_back({"file.export_lic", tr("&Bake Hair Texture…"), "",
+                     tr("Writes colour, opacity, flow and height of the hair as images in the mesh's UVs."), menu,
+                     A::Push, false, ""});
     table.push_back({"file.render", tr("&Render Picture…"), "F12", tr("Renders this view with all hairs to a picture."),
                      menu, A::Push, line, "camera"});
     table.push_back({"file.quit", tr("&Quit"), "Ctrl+Q", tr("Closes Whorl."), menu, A::Push, false, ""});

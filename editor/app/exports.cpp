@@ -5,6 +5,7 @@
 #include "core/io/image.h"
 #include "core/io/package.h"
 #include "editor/app/actions.h"
+#include "editor/app/dialogs/bake_dialog.h"
 #include "editor/app/document.h"
 #include "editor/app/editor_state.h"
 #include "editor/app/progress_task.h"
@@ -32,6 +33,7 @@ Exports::Exports(Document& document, EditorState& state, Viewport* viewport, Mes
       m_window(window) {
     actions.on("file.export_package", this, [this] { askPackage(); });
     actions.on("file.export_hair", this, [this] { askHair(); });
+    actions.on("file.export_lic", this, [this] { askBake(); });
     actions.on("file.render", this, [this] { askPicture(); });
 }
 
@@ -62,6 +64,18 @@ void Exports::askHair() {
         name += '.' + qtext(hairFormats()[static_cast<std::size_t>(index)].suffix);
     }
     exportHair(pathOf(name));
+}
+
+void Exports::askBake() {
+    BakeDialog dialog(&m_window);
+    if (dialog.exec() != QDialog::Accepted) return;
+    dialog.remember();
+    BakeRequest request = dialog.request();
+    const QString name = QFileDialog::getSaveFileName(&m_window, tr("Bake hair texture: name before _colour and so on"),
+                                                      startName({}), tr("Images (*.png *.exr)"));
+    if (name.isEmpty()) return;
+    request.file = pathOf(name);
+    bakeLic(request);
 }
 
 void Exports::askPicture() {
@@ -117,6 +131,24 @@ bool Exports::exportHair(const std::filesystem::path& file) {
         m_messages.say(MessageBar::Kind::Info, tr("Exported %1.").arg(name));
     else if (!done.error().cancelled)
         m_messages.say(MessageBar::Kind::Error, QString::fromStdString(done.error().message));
+    return done.ok();
+}
+
+bool Exports::bakeLic(const BakeRequest& request) {
+    const Groom groom = m_document.committed();
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    if (!surface) return false;
+    using Files = std::vector<std::filesystem::path>;
+    const Result<Files> done =
+        runWithProgress<Files>(&m_window, tr("Baking %1").arg(textOf(request.file.filename())),
+                               [&](Progress& progress) { return bakeToFiles(groom, surface, request, progress); });
+    if (done) {
+        QStringList names;
+        for (const std::filesystem::path& file : *done) names.push_back(textOf(file.filename()));
+        m_messages.say(MessageBar::Kind::Info, tr("Baked %1.").arg(names.join(", ")));
+    } else if (!done.error().cancelled) {
+        m_messages.say(MessageBar::Kind::Error, QString::fromStdString(done.error().message));
+    }
     return done.ok();
 }
 

@@ -2,6 +2,8 @@
 // Writing for other programs: package, hair as curves, pictures.
 #pragma once
 
+#include "core/io/bake_files.h"
+
 #include <QObject>
 #include <filesystem>
 
@@ -27,12 +29,15 @@ public:
     bool exportPackage(const std::filesystem::path& folder, std::uint32_t parts = 0);
     /// Format by suffix.
     bool exportHair(const std::filesystem::path& file);
+    /// Hair texture as images in the mesh's UVs.
+    bool bakeLic(const BakeRequest& request);
     /// The view's camera and light, with all hairs, in any size.
     bool renderPicture(const std::filesystem::path& file, int width, int height);
 
 private:
     void askPackage();
     void askHair();
+    void askBake();
     void askPicture();
     QString startName(const QString& suffix) const;
 

@@ -39,13 +39,6 @@ void markChanges(const LicTexture::Layer<std::uint8_t>& before, const LicTexture
 
 }  // namespace
 
-float licTone(float light, float mean, float deviation) {
-    // Below half a step of 8 bits nothing varies.
-    if (!(deviation > 0.5f / 255.0f)) return 0.0f;
-    const float z = (light - mean) / deviation;
-    return z / std::sqrt(z * z + 2.25f);
-}
-
 LicPass::LicPass() : m_uvs("hair texture uvs"), m_tangents("hair texture tangents") {}
 
 void LicPass::setTexture(std::shared_ptr<const LicTexture> texture, Uploads& uploads) {

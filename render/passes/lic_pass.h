@@ -14,10 +14,6 @@
 
 namespace whorl {
 
-/// How light and dark hairs are told from the convolution, which varies the less the longer and finer hairs are.
-/// -1 to 1, 0 at the mean: steep around it, flat towards the ends.
-float licTone(float light, float mean, float deviation);
-
 class LicPass {
 public:
     LicPass();

@@ -2,7 +2,7 @@
 // Laws of line integral convolution on the skin, and of straight ways over triangles.
 #include "core/base/random.h"
 #include "core/field/grow_guides.h"
-#include "core/lic/bake.h"
+#include "core/lic/reference.h"
 #include "core/surface/parting_line.h"
 #include "tests/support/shapes.h"
 
@@ -173,36 +173,6 @@ private Q_SLOTS:
             stopped += places.size() < 75;
         }
         QVERIFY(stopped > 150);
-    }
-
-    void seamsOfTheBakeAreNotSeen() {
-        // The ball's UVs are cut from pole to pole at the back.
-        const auto surface = surfaceOf(testing::sphere(48, 64, 0.1f));
-        const LicReference lic = combed(surface, {{{0.1f, 0, 0}, {0, 0, 0.1f}}, {{-0.1f, 0, 0}, {0, 0, -0.1f}}});
-        LicOptions options;
-        options.grain = 0.004f;
-        options.length = 0.02f;
-        Progress progress;
-        const int size = 256;
-        const auto baked = bakeLic(lic, options, size, 4, {}, progress);
-        QVERIFY(baked.ok());
-        // Neighbours over the seam (first and last column of the texture) and inside, along the same rows.
-        double over = 0.0, inside = 0.0;
-        int rows = 0;
-        for (int y = size / 4; y < size * 3 / 4; ++y, ++rows) {
-            const auto value = [&](int x) { return static_cast<double>(baked->brightness.texel(x, y)); };
-            over += std::abs(value(0) - value(size - 1));
-            for (int x = 20; x < 36; ++x) inside += std::abs(value(x) - value(x + 1)) / 16.0;
-        }
-        QVERIFY2(inside > 0.0 && over < 1.15 * inside,
-                 qPrintable(QString("%1 %2").arg(over / rows).arg(inside / rows)));
-        for (int x = 0; x < size; ++x) QCOMPARE(baked->coverage.texel(x, size / 2), 1.0f);
-        const auto half = bakeLic(
-            lic, options, 32, 0, [](const SurfacePoint&) { return 0.5f; }, progress);
-        QVERIFY(std::abs(half->coverage.texel(16, 16) - 0.5f) < 0.01f);
-        Progress cancelled;
-        cancelled.cancel();
-        QVERIFY(!bakeLic(lic, options, 8, 0, {}, cancelled).ok());
     }
 
     void aFieldFromGuides() {
