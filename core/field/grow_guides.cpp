@@ -181,22 +181,24 @@ Result<void> growGuidesAlong(Groom& groom, const Surface& surface, const Directi
 }
 
 std::vector<FieldStroke> strokesFromGuides(const Groom& groom, const Surface& surface, int group) {
-    std::vector<FieldStroke> strokes;
-    for (std::size_t i = 0; i < groom.guides.count(); ++i) {
-        if (group >= 0 && groom.guides.group(i) != group) continue;
-        FieldStroke stroke;
-        stroke.points.push_back(groom.guides.root(i));
-        for (const glm::vec3& point : groom.guides.points(i).subspan(1)) {
-            const auto hit = surface.query.nearest(point);
-            if (!hit) break;
-            // Only the part that lies near the skin says how hair lies there.
-            if (hit->distance > 2.0f * glm::distance(positionAt(surface.mesh(), stroke.points.front()), hit->position))
-                break;
-            stroke.points.push_back(hit->point);
+    const std::size_t count = groom.guides.count();
+    std::vector<FieldStroke> all(count);
+    parallelFor(count, 32, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (group >= 0 && groom.guides.group(i) != group) continue;
+            std::vector<SurfacePoint>& line = all[i].points;
+            line.push_back(groom.guides.root(i));
+            const glm::vec3 root = positionAt(surface.mesh(), line.front());
+            for (const glm::vec3& point : groom.guides.points(i).subspan(1)) {
+                const auto hit = surface.query.nearest(point);
+                // Only the part that lies near the skin says how hair lies there.
+                if (!hit || hit->distance > 2.0f * glm::distance(root, hit->position)) break;
+                line.push_back(hit->point);
+            }
         }
-        if (stroke.points.size() >= 2) strokes.push_back(std::move(stroke));
-    }
-    return strokes;
+    });
+    std::erase_if(all, [](const FieldStroke& stroke) { return stroke.points.size() < 2; });
+    return all;
 }
 
 }  // namespace whorl
