@@ -55,10 +55,6 @@ glm::vec3 varied(const glm::vec3& colour, const SinCos& turn, float brightness) 
 
 }  // namespace
 
-glm::vec3 variedColour(const glm::vec3& colour, float hue, float brightness) {
-    return varied(colour, sinCos(double{hue}), brightness);
-}
-
 float TraitLookup::Number::limited(float number) const {
     return std::clamp(finiteOr(number, 0.0f), most < 0.0f ? most : 0.0f, std::abs(most));
 }

@@ -101,10 +101,6 @@ private:
     std::vector<Entry> m_groups;
 };
 
-/// The colour with its hue turned by `hue` radians (a turn at most) about the grey axis, times `brightness`; no channel
-/// below zero. How hairs differ.
-glm::vec3 variedColour(const glm::vec3& colour, float hue, float brightness);
-
 /// Makes up for hairs that a level of detail (above 0) leaves out: they cover as much together.
 void widen(HairTraits& traits, float lod);
 

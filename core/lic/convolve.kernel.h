@@ -26,6 +26,9 @@ struct ConvolveBlock {
     const std::uint16_t* lengths;  ///< share of the steps' length, 1024: all of it; null: everywhere
     std::uint8_t light[256];       ///< out: 0 to 255
     std::uint8_t hair[256];
+    static constexpr int mostLandings = 48;
+    std::uint32_t landings[mostLandings];  ///< out: blocks (row by row) in which streamlines go on beyond seams
+    int landingCount;                      ///< one above `mostLandings`: there are more
 };
 
 #define WHORL_CONVOLVE_KERNELS(level)                                       \

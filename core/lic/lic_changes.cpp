@@ -75,25 +75,37 @@ void LicChanges::addMap(const Groom& before, const std::string& nameBefore, cons
     }
 }
 
+template <class Same>
+std::vector<std::uint32_t> LicChanges::differing(Same&& same) const {
+    constexpr std::size_t atOnce = 8192;
+    const std::size_t count = m_atlas.mesh().triangleCount();
+    std::vector<std::vector<std::uint32_t>> found((count + atOnce - 1) / atOnce);
+    parallelFor(count, atOnce, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            if (!same(t)) found[first / atOnce].push_back(static_cast<std::uint32_t>(t));
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
 std::vector<std::uint32_t> LicChanges::triangles(const DirectionField& before, const DirectionField& after) const {
     const std::span<const glm::vec3> was = before.vertices(), is = after.vertices();
     const std::span<const std::uint8_t> grew = before.grows(), grows = after.grows();
     if (was.data() == is.data()) return {};
     const SurfaceMesh& mesh = m_atlas.mesh();
     const bool comparable = was.size() == is.size() && grew.size() == grows.size();
-    constexpr std::size_t atOnce = 8192;
-    std::vector<std::vector<std::uint32_t>> found((mesh.triangleCount() + atOnce - 1) / atOnce);
-    parallelFor(mesh.triangleCount(), atOnce, [&](std::size_t first, std::size_t last) {
-        for (std::size_t t = first; t < last; ++t) {
-            const glm::uvec3 corners = mesh.triangles[t];
-            const bool same = comparable && grew[t] == grows[t] && was[corners.x] == is[corners.x] &&
-                              was[corners.y] == is[corners.y] && was[corners.z] == is[corners.z];
-            if (!same) found[first / atOnce].push_back(static_cast<std::uint32_t>(t));
-        }
+    return differing([&](std::size_t t) {
+        const glm::uvec3 corners = mesh.triangles[t];
+        return comparable && grew[t] == grows[t] && was[corners.x] == is[corners.x] &&
+               was[corners.y] == is[corners.y] && was[corners.z] == is[corners.z];
     });
-    std::vector<std::uint32_t> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    return all;
+}
+
+std::vector<std::uint32_t> LicChanges::grown(const DirectionField& before, const DirectionField& after) const {
+    const std::span<const std::uint8_t> grew = before.grows(), grows = after.grows();
+    if (grew.data() == grows.data()) return {};
+    return differing([&](std::size_t t) { return grew.size() == grows.size() && grew[t] == grows[t]; });
 }
 
 void LicChanges::addTriangles(std::span<const std::uint32_t> triangles, LicBlocks& blocks) const {

@@ -23,12 +23,17 @@ public:
                 LicBlocks& blocks) const;
     /// Triangles at whose corners the fields differ, ascending.
     std::vector<std::uint32_t> triangles(const DirectionField& before, const DirectionField& after) const;
+    /// Triangles that are in the growing area of one of them only.
+    std::vector<std::uint32_t> grown(const DirectionField& before, const DirectionField& after) const;
     void addTriangles(std::span<const std::uint32_t> triangles, LicBlocks& blocks) const;
 
     static void addAll(LicBlocks& blocks) { blocks.assign(blocks.size(), 1); }
     static void add(const LicBlocks& more, LicBlocks& blocks);
 
 private:
+    template <class Same>
+    std::vector<std::uint32_t> differing(Same&& same) const;
+
     const TexelAtlas& m_atlas;
     // By cells of the mesh's UVs as TouchedUvs has them, and by triangle: blocks from first[i] up to first[i + 1].
     std::vector<std::uint32_t> m_firstOfCell, m_blocksOfCell;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/lic/lic_colours.h"
 
-#include "core/hair/traits.h"
+#include "core/base/parallel.h"
+#include "core/base/polynomials.h"
+#include "core/sampling/density.h"
 
 #include <glm/common.hpp>
 
@@ -11,16 +13,17 @@
 namespace whorl {
 namespace {
 
+constexpr std::size_t blocksAtOnce = 16;
+
 std::uint8_t encoded(float linear) {
     static const std::vector<std::uint8_t> table = [] {
         std::vector<std::uint8_t> bytes;
-        for (int i = 0; i < 65536; ++i)
-            bytes.push_back(
-                static_cast<std::uint8_t>(srgbFromLinear(static_cast<float>(i) / 65535.0f) * 255.0f + 0.5f));
+        for (int i = 0; i < 4096; ++i)
+            bytes.push_back(static_cast<std::uint8_t>(srgbFromLinear(static_cast<float>(i) / 4095.0f) * 255.0f + 0.5f));
         return bytes;
     }();
     const float limited = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-    return table[static_cast<std::size_t>(limited * 65535.0f + 0.5f)];
+    return table[static_cast<std::size_t>(limited * 4095.0f + 0.5f)];
 }
 
 // Goes up and down evenly between -1 and 1, `turns` times from 0 to 1.
@@ -30,64 +33,116 @@ float zigzag(float x, float turns, float from) {
     return 4.0f * std::abs(part - 0.5f) - 1.0f;
 }
 
+struct Tint {
+    glm::vec3 value{0.0f};
+    const Map* map = nullptr;
+    glm::vec3 at(glm::vec2 uv) const {
+        const glm::vec3 colour = map ? value * map->sampleColour(uv) : value;
+        glm::vec3 limited(0.0f);
+        for (int i = 0; i < 3; ++i) limited[i] = std::isfinite(colour[i]) ? std::clamp(colour[i], 0.0f, 1e6f) : 0.0f;
+        return limited;
+    }
+};
+
+struct Share {
+    float value = 0.0f;
+    const Map* map = nullptr;
+    float most = 1.0f;
+    float at(glm::vec2 uv) const {
+        const float number = map ? value * map->sample(uv) : value;
+        return std::isfinite(number) ? std::clamp(number, 0.0f, most) : 0.0f;
+    }
+};
+
+struct Source {
+    Tint root, tip;
+    Share hue, value, mutants;
+};
+
 }  // namespace
 
-LicColours::LicColours(const Groom& groom) : m_groups(groom), m_place(std::clamp(groom.lic->colourPlace, 0.0f, 1.0f)) {
+// Nobody numbers drawn hairs. Their rank is even along each and independent of the neighbour's: odd hairs are those
+// around the middle, hue and brightness go up and down over the ranks at different rates.
+LicColours::Variation LicColours::variation(float hue, float value, float mutants, float rank) {
+    Variation v;
+    if (hue > 0.0f || value > 0.0f) {
+        // About the grey axis.
+        const SinCos turn = sinCos(static_cast<double>(hue * zigzag(rank, 3.0f, 0.1f)));
+        const double brightness = 1.0 + static_cast<double>(value * zigzag(rank, 5.0f, 0.4f));
+        const double c = turn.cos, s = turn.sin / std::sqrt(3.0), third = (1.0 - c) / 3.0;
+        v.turn[0] = static_cast<float>((c + third) * brightness);
+        v.turn[1] = static_cast<float>((third - s) * brightness);
+        v.turn[2] = static_cast<float>((third + s) * brightness);
+    }
+    if (mutants > 0.0f) {
+        const float inside = (0.5f * mutants - std::abs(rank - 0.5f)) / std::min(0.25f * mutants, 0.05f);
+        v.mutant = std::clamp(0.5f + inside, 0.0f, 1.0f);
+    }
+    return v;
+}
+
+void LicColours::set(const Groom& groom, std::span<const std::uint8_t> blocks) {
     const auto map = [&](const std::string& name) -> const Map* {
         const Map* found = name.empty() ? nullptr : groom.maps.find(name);
         return found && !found->empty() ? found : nullptr;
     };
-    const auto share = [&](const Driven& driven) { return Share{driven.value, map(driven.map)}; };
+    const auto share = [&](const Driven& driven, float most) { return Share{driven.value, map(driven.map), most}; };
+    std::vector<Source> sources;
+    m_entries.clear();
+    m_varies = false;
+    bool apart = false;
     for (const Group& group : *groom.groups) {
         const ColourParams& colour = group.params.colour;
-        Entry entry;
-        entry.root = {colour.root.value, map(colour.root.map)};
-        entry.tip = {colour.tip.value, map(colour.tip.map)};
-        entry.hue = share(colour.hueVariation);
-        entry.value = share(colour.valueVariation);
-        entry.mutants = share(colour.mutants);
-        entry.mutant = colour.mutant.value;
-        entry.mapped = entry.root.map || entry.tip.map || entry.hue.map || entry.value.map || entry.mutants.map;
-        m_varies = m_varies || entry.hue.value > 0.0f || entry.value.value > 0.0f || entry.mutants.value > 0.0f;
-        if (!entry.mapped) {
-            for (int i = 0; i < 256; ++i)
-                entry.ranks.push_back(evaluate(entry, glm::vec2(0.0f), static_cast<float>(i) / 255.0f));
-        }
+        const Source source{{colour.root.value, map(colour.root.map)},
+                            {colour.tip.value, map(colour.tip.map)},
+                            share(colour.hueVariation, 3.14159265f),
+                            share(colour.valueVariation, 1.0f),
+                            share(colour.mutants, 1.0f)};
+        m_varies = m_varies || source.hue.value > 0.0f || source.value.value > 0.0f || source.mutants.value > 0.0f;
+        apart = apart || source.hue.map || source.value.map || source.mutants.map;
+        Entry entry{colour.mutant.value, {}};
+        for (int i = 0; i < 256; ++i)
+            entry.ranks.push_back(
+                variation(source.hue.value, source.value.value, source.mutants.value, static_cast<float>(i) / 255.0f));
+        sources.push_back(source);
         m_entries.push_back(std::move(entry));
     }
+    const std::size_t count = m_atlas.slots().size();
+    m_places.resize(count);
+    m_groups.resize(sources.size() > 1 ? count : 0);
+    m_differences.resize(apart ? count : 0);
+    const DensityLookup groups(groom);
+    const float place = std::clamp(groom.lic->colourPlace, 0.0f, 1.0f);
+    parallelFor(blocks.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            if (!blocks[b]) continue;
+            for (std::uint32_t i = m_atlas.firstSlot(b); i < m_atlas.firstSlot(b + 1); ++i) {
+                const glm::vec2 uv = uvAt(m_atlas.mesh(), m_atlas.slots()[i].point());
+                const int group = groups.groupAt(uv);
+                if (!m_groups.empty()) m_groups[i] = static_cast<std::uint8_t>(group);
+                const Source& source = sources[static_cast<std::size_t>(group)];
+                m_places[i] = glm::mix(source.root.at(uv), source.tip.at(uv), place);
+                if (apart) m_differences[i] = {source.hue.at(uv), source.value.at(uv), source.mutants.at(uv)};
+            }
+        }
+    });
 }
 
-glm::vec3 LicColours::Tint::at(glm::vec2 uv) const {
-    const glm::vec3 colour = map ? value * map->sampleColour(uv) : value;
-    glm::vec3 limited(0.0f);
-    for (int i = 0; i < 3; ++i) limited[i] = std::isfinite(colour[i]) ? std::clamp(colour[i], 0.0f, 1e6f) : 0.0f;
-    return limited;
-}
-
-float LicColours::Share::at(glm::vec2 uv) const {
-    const float number = map ? value * map->sample(uv) : value;
-    return std::isfinite(number) ? std::clamp(number, 0.0f, 3.14159265f) : 0.0f;
-}
-
-// Nobody numbers drawn hairs. Their rank is even along each and independent of the neighbour's: odd hairs are those
-// around the middle, hue and brightness go up and down over the ranks at different rates.
-LicColour LicColours::evaluate(const Entry& entry, glm::vec2 uv, float rank) const {
-    const glm::vec3 root = entry.root.at(uv), tip = entry.tip.at(uv);
-    glm::vec3 colour = root + (tip - root) * m_place;
-    if (const float mutants = std::min(entry.mutants.at(uv), 1.0f); mutants > 0.0f) {
-        const float inside = (0.5f * mutants - std::abs(rank - 0.5f)) / std::min(0.25f * mutants, 0.05f);
-        colour = glm::mix(colour, entry.mutant, std::clamp(0.5f + inside, 0.0f, 1.0f));
+LicColour LicColours::at(std::uint32_t slot, std::uint8_t rank) const {
+    glm::vec3 colour = m_places[slot];
+    if (m_varies) {
+        const Entry& entry = m_entries[m_groups.empty() ? 0 : m_groups[slot]];
+        Variation v = entry.ranks[rank];
+        if (!m_differences.empty()) {
+            const glm::vec3& d = m_differences[slot];
+            v = variation(d.x, d.y, d.z, static_cast<float>(rank) / 255.0f);
+        }
+        colour = glm::mix(colour, entry.mutant, v.mutant);
+        const float a = v.turn[0], b = v.turn[1], c = v.turn[2];
+        colour = {a * colour.x + b * colour.y + c * colour.z, c * colour.x + a * colour.y + b * colour.z,
+                  b * colour.x + c * colour.y + a * colour.z};
     }
-    const float hue = entry.hue.at(uv), value = std::min(entry.value.at(uv), 1.0f);
-    if (hue > 0.0f || value > 0.0f)
-        colour = variedColour(colour, hue * zigzag(rank, 3.0f, 0.1f), 1.0f + value * zigzag(rank, 5.0f, 0.4f));
     return {encoded(colour.x), encoded(colour.y), encoded(colour.z)};
-}
-
-LicColour LicColours::at(glm::vec2 uv, float rank) const {
-    const Entry& entry = m_entries[static_cast<std::size_t>(m_groups.groupAt(uv))];
-    if (!entry.mapped) return entry.ranks[static_cast<std::size_t>(std::clamp(rank, 0.0f, 1.0f) * 255.0f + 0.5f)];
-    return evaluate(entry, uv, rank);
 }
 
 std::vector<std::string> LicColours::mapNames(const Groom& groom) {

@@ -54,7 +54,8 @@ glm::vec3 LicCover::position(std::uint32_t slot) const {
     return positionAt(m_atlas.mesh(), m_atlas.slots()[slot].point());
 }
 
-void LicCover::setDensity(const Groom& groom, const DirectionField& field, std::span<const std::uint8_t> blocks) {
+void LicCover::setDensity(const Groom& groom, const DirectionField& field, std::span<const std::uint8_t> blocks,
+                          std::span<std::uint8_t> grown) {
     const DensityLookup density(groom);
     const float most = density.scale();
     const std::span<const std::uint8_t> grows = field.grows();
@@ -66,7 +67,9 @@ void LicCover::setDensity(const Groom& groom, const DirectionField& field, std::
                 float here = 0.0f;
                 if (most > 0.0f && !grows.empty() && grows[slot.triangle])
                     here = density.at(slot.triangle, uvAt(m_atlas.mesh(), slot.point())) / most;
-                m_density[i] = here > 0.0f ? std::max<std::uint8_t>(byteOf(here), 1) : 0;
+                const std::uint8_t next = here > 0.0f ? std::max<std::uint8_t>(byteOf(here), 1) : 0;
+                if ((next == 0) != (m_density[i] == 0)) grown[b] = 1;
+                m_density[i] = next;
             }
         }
     });
@@ -105,7 +108,7 @@ void LicCover::forNeighbours(std::uint32_t slot, Visit&& visit) const {
 void LicCover::setBorder(float metres, const std::vector<std::uint8_t>& blocks) {
     const auto hops = static_cast<int>(borderReach(metres));
     std::vector<std::uint8_t> window = blocks;
-    if (hops > 0) m_atlas.spread(window, static_cast<float>(hops));
+    if (hops > 0) m_atlas.spread(window, static_cast<float>(hops), true);
     const auto inWindow = [&](std::uint32_t slot) { return window[m_atlas.blockOf(m_atlas.slots()[slot].texel)] != 0; };
     std::vector<Near> edge, next;
     std::vector<std::uint32_t> touched;

@@ -19,8 +19,9 @@ class LicCover {
 public:
     explicit LicCover(const TexelAtlas& atlas);
 
-    /// Density of the marked blocks (one a block).
-    void setDensity(const Groom& groom, const DirectionField& field, std::span<const std::uint8_t> blocks);
+    /// Density of the marked blocks (one a block). Marks in `grown` those where a place got hair or lost it.
+    void setDensity(const Groom& groom, const DirectionField& field, std::span<const std::uint8_t> blocks,
+                    std::span<std::uint8_t> grown);
     void setOpacity(const Driven& opacity, const Map* map, std::span<const std::uint8_t> blocks);
     /// How far the border is, from the densities. `metres`: where it has no effect any more.
     void setBorder(float metres, const std::vector<std::uint8_t>& blocks);
@@ -30,8 +31,8 @@ public:
     void setRanks(float deviation);
 
     bool grows(std::uint32_t slot) const { return m_density[slot] != 0; }
-    /// Share of hairs, 0 to 1, that rank below this one, by its noise.
-    float rank(std::uint8_t hair) const { return static_cast<float>(m_ranks[hair]) / 255.0f; }
+    /// Share of hairs, 0 to 255, that rank below this one, by its noise.
+    std::uint8_t rank(std::uint8_t hair) const { return m_ranks[hair]; }
     /// 0 to 255, by the convolved noise of the place.
     std::uint8_t cover(std::uint32_t slot, std::uint8_t hair) const;
 

@@ -70,14 +70,18 @@ LicPlan licPlan(const LicParams& params, const TexelAtlas& atlas, const Map* len
     plan.longest = std::max(params.length.value, 0.0f) * brightestTexel(lengthMap);
     // A texel, less where the mesh has much finer ones than usual.
     const float step = std::min(texel, 3.8f * atlas.fineTexel());
-    plan.steps = std::clamp(static_cast<int>(std::ceil(std::min(plan.longest / step, 1e6f))), 1, LicPlan::mostSteps);
-    plan.stepMetres = plan.longest / static_cast<float>(plan.steps);
+    // The same for all usual lengths, so that another length changes no word.
+    plan.stepMetres =
+        std::max(std::min(step, plan.longest / 12.0f), plan.longest / static_cast<float>(LicPlan::mostSteps));
+    const float steps = plan.stepMetres > 0.0f ? plan.longest / plan.stepMetres : 1.0f;
+    plan.steps = std::clamp(static_cast<int>(steps + 0.01f), 1, LicPlan::mostSteps);
     plan.longestStep = std::clamp(1.5f * plan.stepMetres / atlas.fineTexel(), 2.0f, 3.99f);
     std::vector<double> weights;
     double all = 0.0;
     for (int k = 0; k <= plan.steps; ++k) {
-        const double along = static_cast<double>(k) / plan.steps;
-        weights.push_back(params.kernel.index == 1 ? 1.0 : 0.5 + 0.5 * std::cos(std::numbers::pi * along));
+        const double along = k == 0 ? 0.0 : static_cast<double>(static_cast<float>(k) / steps);
+        const double soft = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(along, 1.0));
+        weights.push_back(along > 1.01 ? 0.0 : params.kernel.index == 1 ? 1.0 : soft);
         all += k == 0 ? weights.back() : 2.0 * weights.back();
     }
     for (const double w : weights) {

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-// A word: 12 bits step to the right, 12 bits step down (two's complement, 1/512 texel), 5 bits of noise for the light,
-// 3 bits of noise that tells one hair from another. A step to the right of -2048 marks a special texel: the next 12
-// bits are its number among those of the same 1024 texels, or say that streamlines end.
+// A word: 12 bits step to the right, 12 bits step down (two's complement, 1/512 texel), 3 bits of noise that
+// tells one hair from another, 5 bits of noise for the light. A step to the right of -2048 marks a special texel: the
+// next 12 bits are its number among those of the same 1024 texels, or say that streamlines end.
 
 namespace whorl::lic_word {
 

@@ -281,8 +281,8 @@ void LicWords::noiseOfBlock(const LicPlan& plan, std::uint32_t seed, const Map* 
             const std::uint32_t light = (white * lic_word::lightMost * 16 + chance * all) / (16 * all);
             const std::uint32_t other = (hair * lic_word::hairMost * 16 + chance * all) / (16 * all);
             std::uint32_t& word = m_words[m_atlas.slots()[i].texel];
-            word = (word & ~lic_word::noise) | std::min<std::uint32_t>(light, lic_word::lightMost) << 3 |
-                   std::min<std::uint32_t>(other, lic_word::hairMost);
+            word = (word & ~lic_word::noise) | std::min<std::uint32_t>(light, lic_word::lightMost) |
+                   std::min<std::uint32_t>(other, lic_word::hairMost) << 5;
         }
     }
 }

@@ -45,9 +45,11 @@ bool anyOf(const LicBlocks& blocks) {
 }  // namespace
 
 struct LicPainter::State {
-    explicit State(TexelAtlas texels) : atlas(std::move(texels)), words(atlas), cover(atlas), changes(atlas) {
+    explicit State(TexelAtlas texels)
+        : atlas(std::move(texels)), words(atlas), cover(atlas), colours(atlas), changes(atlas) {
         light.assign(atlas.slots().size(), 0);
         hair.assign(atlas.slots().size(), 0);
+        landings.resize(atlas.blockCount());
     }
 
     Stale staleAgainst(const Groom& groom, const DirectionField& now, const LicPlan& next, bool fresh) const;
@@ -64,10 +66,12 @@ struct LicPainter::State {
     std::mutex mutex;
     LicWords words;
     LicCover cover;
+    LicColours colours;
     const LicChanges changes;
     std::vector<std::uint16_t> lengths;  // by block, empty without a map
     std::vector<std::uint8_t> light;     // one a slot, as `hair`
     std::vector<std::uint8_t> hair;
+    std::vector<std::vector<std::uint32_t>> landings;  // by block: those that its streamlines jump to; `none`: many
     // What was painted last.
     bool painted = false;
     Groom groom;
@@ -142,18 +146,22 @@ Stale LicPainter::State::staleAgainst(const Groom& now, const DirectionField& no
     if (next.longest != plan.longest || is.length.value != was.length.value) LicChanges::addAll(stale.lengths);
     changes.addMap(groom, was.length.map, now, is.length.map, stale.lengths);
     densityAgainst(now, stale);
-    // Where the growing area of the field changed, so did directions.
-    LicChanges::add(stale.steps, stale.density);
+    changes.addTriangles(changes.grown(field, nowField), stale.density);
 
     if (anyOf(stale.steps) || anyOf(stale.noise)) {
         LicChanges::add(stale.steps, stale.light);
         LicChanges::add(stale.noise, stale.light);
-        atlas.spread(stale.light, next.longestStep * static_cast<float>(next.steps) + TexelAtlas::margin);
+        atlas.spread(stale.light, next.longestStep * static_cast<float>(next.steps), false);
+        // Streamlines that come there over a seam: so far they have gone as they went last time.
+        const LicBlocks near = stale.light;
+        for (std::size_t b = 0; b < landings.size(); ++b)
+            for (const std::uint32_t there : landings[b])
+                stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
     }
     LicChanges::add(stale.lengths, stale.light);
     if (next.weights != plan.weights || next.steps != plan.steps) LicChanges::addAll(stale.light);
     LicChanges::add(stale.density, stale.border);
-    if (anyOf(stale.border)) atlas.spread(stale.border, cover.borderReach(is.border) + 1.0f);
+    if (anyOf(stale.border)) atlas.spread(stale.border, cover.borderReach(is.border) + 1.0f, true);
     if (is.border != was.border) LicChanges::addAll(stale.border);
     if (is.opacity.value != was.opacity.value) LicChanges::addAll(stale.opacity);
     changes.addMap(groom, was.opacity.map, now, is.opacity.map, stale.opacity);
@@ -161,8 +169,6 @@ Stale LicPainter::State::staleAgainst(const Groom& now, const DirectionField& no
         LicChanges::add(*part, stale.cover);
     if (stale.ranks) LicChanges::addAll(stale.cover);
     coloursAgainst(now, stale);
-    // Places that get hair or lose it have light of another kind.
-    LicChanges::add(stale.density, stale.light);
     return stale;
 }
 
@@ -179,12 +185,9 @@ void LicPainter::State::setLengths(const Groom& now, const LicBlocks& blocks) {
             if (!blocks[b]) continue;
             for (std::uint32_t i = atlas.firstSlot(b); i < atlas.firstSlot(b + 1); ++i) {
                 const TexelAtlas::Slot& slot = atlas.slots()[i];
-                const auto side = static_cast<std::uint32_t>(atlas.side());
-                const std::size_t place =
-                    slot.texel / side % TexelAtlas::block * TexelAtlas::block + slot.texel % side % TexelAtlas::block;
                 const float share = scale * map->sample(uvAt(atlas.mesh(), slot.point()));
                 const float limited = share > 0.0f ? std::min(share, 1.0f) : 0.0f;
-                lengths[b * texelsOfBlock + place] =
+                lengths[b * texelsOfBlock + atlas.placeInBlock(i)] =
                     static_cast<std::uint16_t>(limited * static_cast<float>(lic_word::one) + 0.5f);
             }
         }
@@ -195,25 +198,33 @@ bool LicPainter::State::convolve(const LicBlocks& blocks, Progress& progress) {
     const ConvolveArrays arrays = words.arrays(plan);
     const auto kernel = WHORL_PICK(convolveBlock);
     const auto across = static_cast<std::size_t>(atlas.blocksAcross());
-    const auto side = static_cast<std::uint32_t>(atlas.side());
     const auto even = static_cast<std::uint8_t>(plan.mean * 255.0f + 0.5f);
     parallelFor(blocks.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
         ConvolveBlock block{};
         for (std::size_t b = first; b < last && !progress.cancelled(); ++b) {
             const std::uint32_t begin = atlas.firstSlot(b), end = atlas.firstSlot(b + 1);
             if (!blocks[b] || begin == end) continue;
+            bool any = false;
+            for (std::uint32_t i = begin; i < end && !any; ++i) any = cover.grows(i);
+            landings[b].clear();
+            if (!any) {
+                std::fill(light.begin() + begin, light.begin() + end, even);
+                std::fill(hair.begin() + begin, hair.begin() + end, std::uint8_t{128});
+                continue;
+            }
             block.x = static_cast<int>(b % across) * TexelAtlas::block;
             block.y = static_cast<int>(b / across) * TexelAtlas::block;
             block.lengths = lengths.empty() ? nullptr : &lengths[b * texelsOfBlock];
             kernel(arrays, block);
+            landings[b].assign(block.landings,
+                               block.landings + std::min(block.landingCount, ConvolveBlock::mostLandings));
+            if (block.landingCount > ConvolveBlock::mostLandings) landings[b].assign(1, TexelAtlas::none);
             for (std::uint32_t i = begin; i < end; ++i) {
-                const std::uint32_t texel = atlas.slots()[i].texel;
-                const std::uint32_t place =
-                    texel / side % TexelAtlas::block * TexelAtlas::block + texel % side % TexelAtlas::block;
-                // Hair grows, but nothing says which way: no place for dark dots.
-                const bool lost = cover.grows(i) && !words.grows(i);
-                light[i] = lost ? even : block.light[place];
-                hair[i] = lost ? 128 : block.hair[place];
+                const std::size_t place = atlas.placeInBlock(i);
+                // Where no hair grows, or nothing says which way, light is that of the mean: no dark dots and fringes.
+                const bool grows = cover.grows(i) && words.grows(i);
+                light[i] = grows ? block.light[place] : even;
+                hair[i] = grows ? block.hair[place] : 128;
             }
         }
     });
@@ -224,23 +235,25 @@ bool LicPainter::State::convolve(const LicBlocks& blocks, Progress& progress) {
 template <class T, class Value>
 void LicPainter::State::write(std::shared_ptr<const std::vector<T>>& layer, std::size_t channels,
                               const LicBlocks& blocks, bool fresh, Value&& value) const {
-    const auto size = static_cast<std::uint32_t>(atlas.size()), side = static_cast<std::uint32_t>(atlas.side());
-    constexpr auto pad = static_cast<std::uint32_t>(TexelAtlas::pad);
+    const auto size = static_cast<std::size_t>(atlas.size());
     std::shared_ptr<std::vector<T>> next;
     if (fresh || !layer) {
-        next = std::make_shared<std::vector<T>>(std::size_t{size} * size * channels, T{});
+        next = std::make_shared<std::vector<T>>(size * size * channels, T{});
     } else {
         next = std::make_shared<std::vector<T>>(*layer);
     }
-    const auto set = [&](std::uint32_t texel, std::uint32_t slot) {
-        const std::uint32_t x = texel % side - pad, y = texel / side - pad;
-        if (x < size && y < size) value(slot, next->data() + (std::size_t{y} * size + x) * channels);
-    };
+    const auto across = static_cast<std::size_t>(atlas.blocksAcross());
     parallelFor(blocks.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             if (!blocks[b]) continue;
-            for (std::uint32_t i = atlas.firstSlot(b); i < atlas.firstSlot(b + 1); ++i) set(atlas.slots()[i].texel, i);
-            for (const TexelAtlas::Fill& f : atlas.fills(b)) set(f.texel, atlas.slotOf(f.from));
+            const std::size_t left = b % across * TexelAtlas::block - TexelAtlas::pad;  // wraps around in the frame
+            const std::size_t top = b / across * TexelAtlas::block - TexelAtlas::pad;
+            for (std::uint32_t i = atlas.firstSlot(b); i < atlas.firstSlot(b + 1); ++i) {
+                const std::size_t place = atlas.placeInBlock(i);
+                const std::size_t x = left + place % TexelAtlas::block, y = top + place / TexelAtlas::block;
+                if (x < size && y < size) value(i, next->data() + (y * size + x) * channels);
+            }
+            for (const TexelAtlas::Fill& f : atlas.fills(b)) value(f.slot, next->data() + f.texel * channels);
         }
     });
     layer = std::move(next);
@@ -288,7 +301,11 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
                          stale.noise);
     if (anyOf(stale.lengths)) s.setLengths(groom, stale.lengths);
     if (progress.cancelled()) return cancelledError();
-    if (anyOf(stale.density)) s.cover.setDensity(groom, field, stale.density);
+    // Places that get hair or lose it have light of another kind.
+    LicBlocks grown(stale.light.size());
+    if (anyOf(stale.density)) s.cover.setDensity(groom, field, stale.density, grown);
+    LicChanges::add(grown, stale.light);
+    LicChanges::add(grown, stale.cover);
     if (anyOf(stale.border)) s.cover.setBorder(groom.lic->border, stale.border);
     if (anyOf(stale.opacity))
         s.cover.setOpacity(groom.lic->opacity, mapOf(groom, groom.lic->opacity.map), stale.opacity);
@@ -305,15 +322,14 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
     if (anyOf(stale.cover))
         s.write(next.cover, 1, stale.cover, fresh,
                 [&](std::uint32_t i, std::uint8_t* to) { *to = s.cover.cover(i, s.hair[i]); });
-    const LicColours colours(groom);
-    if (colours.varies()) {
+    if (anyOf(stale.colours)) s.colours.set(groom, stale.colours);
+    if (s.colours.varies()) {
         LicChanges::add(stale.light, stale.colours);
         if (stale.ranks) LicChanges::addAll(stale.colours);
     }
     if (anyOf(stale.colours)) {
         s.write(next.colours, 3, stale.colours, fresh, [&](std::uint32_t i, std::uint8_t* to) {
-            const LicColour colour =
-                colours.at(uvAt(s.atlas.mesh(), s.atlas.slots()[i].point()), s.cover.rank(s.hair[i]));
+            const LicColour colour = s.colours.at(i, s.cover.rank(s.hair[i]));
             std::copy_n(colour.data(), 3, to);
         });
     }

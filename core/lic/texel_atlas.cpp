@@ -150,6 +150,9 @@ void TexelAtlas::place(Raster& raster) {
         for (const Slot& slot : here) {
             m_slotOf[slot.texel] = static_cast<std::uint32_t>(m_slots.size());
             m_slots.push_back(slot);
+            const std::uint32_t x = slot.texel % static_cast<std::uint32_t>(m_side);
+            const std::uint32_t y = slot.texel / static_cast<std::uint32_t>(m_side);
+            m_placeInBlock.push_back(static_cast<std::uint8_t>(y % block * block + x % block));
         }
         m_firstSlot.push_back(static_cast<std::uint32_t>(m_slots.size()));
     }
@@ -161,7 +164,10 @@ void TexelAtlas::place(Raster& raster) {
 // Rings around charts, each texel from one of its neighbours of the ring before.
 void TexelAtlas::fillAround() {
     const int least = pad, most = pad + m_size - 1;
-    std::vector<Fill> found, ring;
+    struct Taken {
+        std::uint32_t texel, from;
+    };
+    std::vector<Taken> found, ring;
     PlainVector<std::uint32_t> source(m_slotOf.size());
     for (std::size_t i = 0; i < source.size(); ++i)
         source[i] = m_slotOf[i] != none ? static_cast<std::uint32_t>(i) : none;
@@ -179,11 +185,11 @@ void TexelAtlas::fillAround() {
                 if (source[next] == none) ring.push_back({next, source[texel]});
             }
         }
-        std::sort(ring.begin(), ring.end(), [](const Fill& p, const Fill& q) {
+        std::sort(ring.begin(), ring.end(), [](const Taken& p, const Taken& q) {
             return p.texel != q.texel ? p.texel < q.texel : p.from < q.from;
         });
         edge.clear();
-        for (const Fill& f : ring) {
+        for (const Taken& f : ring) {
             if (source[f.texel] != none) continue;
             source[f.texel] = f.from;
             found.push_back(f);
@@ -191,10 +197,13 @@ void TexelAtlas::fillAround() {
         }
     }
     std::stable_sort(found.begin(), found.end(),
-                     [&](const Fill& p, const Fill& q) { return blockOf(p.from) < blockOf(q.from); });
-    m_fills = std::move(found);
+                     [&](const Taken& p, const Taken& q) { return blockOf(p.from) < blockOf(q.from); });
     m_firstFill.assign(blockCount() + 1, 0);
-    for (const Fill& f : m_fills) ++m_firstFill[blockOf(f.from) + 1];
+    for (const Taken& f : found) {
+        ++m_firstFill[blockOf(f.from) + 1];
+        const std::uint32_t x = f.texel % width - pad, y = f.texel / width - pad;
+        m_fills.push_back({y * static_cast<std::uint32_t>(m_size) + x, m_slotOf[f.from]});
+    }
     for (std::size_t b = 0; b < blockCount(); ++b) m_firstFill[b + 1] += m_firstFill[b];
 }
 
@@ -213,29 +222,32 @@ void TexelAtlas::linkBlocks() {
     m_links.erase(std::unique(m_links.begin(), m_links.end()), m_links.end());
 }
 
-void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels) const {
+void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels, bool overSeams) const {
     const int across = blocksAcross();
     const int rings = static_cast<int>(std::ceil(texels / static_cast<float>(block)));
     std::vector<std::uint32_t> edge, next;
     for (std::uint32_t b = 0; b < blocks.size(); ++b)
         if (blocks[b]) edge.push_back(b);
-    for (int pass = 0; pass <= rings && !edge.empty(); ++pass) {
+    const auto reach = [&](std::uint32_t b) {
+        if (blocks[b]) return;
+        blocks[b] = 1;
+        next.push_back(b);
+    };
+    const auto cross = [&] {
         next.clear();
-        const auto reach = [&](std::uint32_t b) {
-            if (blocks[b]) return;
-            blocks[b] = 1;
-            next.push_back(b);
-        };
-        // Through seams at no cost: what is beyond is as near as the margin.
-        for (std::size_t i = 0; i < edge.size(); ++i) {
-            const auto from = std::lower_bound(m_links.begin(), m_links.end(), std::array{edge[i], 0u});
-            for (auto link = from; link != m_links.end() && (*link)[0] == edge[i]; ++link) {
-                if (blocks[(*link)[1]]) continue;
-                blocks[(*link)[1]] = 1;
-                edge.push_back((*link)[1]);
-            }
+        for (const std::uint32_t b : edge) {
+            const auto from = std::lower_bound(m_links.begin(), m_links.end(), std::array{b, 0u});
+            for (auto link = from; link != m_links.end() && (*link)[0] == b; ++link) reach((*link)[1]);
+        }
+        edge.insert(edge.end(), next.begin(), next.end());
+    };
+    for (int pass = 0; pass <= rings && !edge.empty(); ++pass) {
+        if (overSeams) {
+            cross();
+            cross();
         }
         if (pass == rings) break;
+        next.clear();
         for (const std::uint32_t b : edge) {
             const int x = static_cast<int>(b) % across, y = static_cast<int>(b) / across;
             for (int n = 0; n < 9; ++n) {

@@ -52,9 +52,10 @@ public:
         float turn[4];  ///< rows
         float to[2];
     };
+    /// A texel of the texture (row * size + column) beside charts, and the slot that it gets its value from.
     struct Fill {
         std::uint32_t texel;
-        std::uint32_t from;
+        std::uint32_t slot;
     };
     /// Coordinates of a triangle's plane: texels a metre.
     struct Gradients {
@@ -73,6 +74,8 @@ public:
     std::span<const Slot> slots() const { return m_slots; }
     /// Slots of a block are `firstSlot(b)` up to `firstSlot(b + 1)`, ordered by triangle.
     std::uint32_t firstSlot(std::size_t b) const { return m_firstSlot[b]; }
+    /// Row * `block` + column in its block.
+    std::uint8_t placeInBlock(std::uint32_t slot) const { return m_placeInBlock[slot]; }
     /// `none` where no place is.
     std::uint32_t slotOf(std::uint32_t texel) const { return m_slotOf[texel]; }
     std::uint32_t blockOf(std::uint32_t texel) const {
@@ -92,8 +95,9 @@ public:
     float usualTexel() const { return m_usualTexel; }
     float fineTexel() const { return m_fineTexel; }
 
-    /// Adds to the marked blocks (one a block) those that are `texels` away at most, also over seams.
-    void spread(std::vector<std::uint8_t>& blocks, float texels) const;
+    /// Adds to the marked blocks (one a block) those that are `texels` away at most, in the plane of the texture or
+    /// also over seams (at most two of them in the width of a block).
+    void spread(std::vector<std::uint8_t>& blocks, float texels, bool overSeams) const;
 
 private:
     TexelAtlas() = default;
@@ -113,6 +117,7 @@ private:
     float m_fineTexel = 0.0f;
     std::vector<Slot> m_slots;
     std::vector<std::uint32_t> m_firstSlot;
+    std::vector<std::uint8_t> m_placeInBlock;
     PlainVector<std::uint32_t> m_slotOf;
     std::vector<Jump> m_jumps;
     std::vector<Fill> m_fills;

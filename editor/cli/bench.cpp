@@ -18,8 +18,9 @@ std::vector<BenchRow> benchStream();
 std::vector<BenchRow> benchPackage();
 std::vector<BenchRow> benchComb();
 std::vector<BenchRow> benchPaint();
-std::vector<BenchRow> benchDraw();
 std::vector<BenchRow> benchField();
+std::vector<BenchRow> benchLic();
+std::vector<BenchRow> benchDraw();
 std::vector<BenchRow> benchLicDraw();
 
 std::span<const Bench> benches() {
@@ -36,6 +37,7 @@ std::span<const Bench> benches() {
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
         Bench{"field", "Directions of hair after one stroke has moved, against factorising anew", benchField},
+        Bench{"lic", "Hair texture over a mesh, against the reference place by place", benchLic},
         Bench{"draw", "Frames, voxel shadows and depth order, against plain lines and plain loops", benchDraw},
         Bench{"lic-draw", "Frames with hair texture, against the bare mesh; uploads of dabs", benchLicDraw},
     };
