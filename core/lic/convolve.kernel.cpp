@@ -83,10 +83,12 @@ bool partedBy(const Special& special, std::int32_t fromX, std::int32_t fromY, st
 void land(const ConvolveArrays& a, std::int32_t x, std::int32_t y, ConvolveBlock& block) {
     const auto number =
         static_cast<std::uint32_t>((y >> fraction) / lanes * (a.side / lanes) + (x >> fraction) / lanes);
-    for (int i = 0; i < block.landingCount && i < ConvolveBlock::mostLandings; ++i)
+    constexpr int most = ConvolveBlock::mostLandings;
+    // Neighbours land together: mostly it is the last one again.
+    for (int i = (block.landingCount < most ? block.landingCount : most) - 1; i >= 0; --i)
         if (block.landings[i] == number) return;
-    if (block.landingCount < ConvolveBlock::mostLandings) block.landings[block.landingCount] = number;
-    if (block.landingCount <= ConvolveBlock::mostLandings) ++block.landingCount;
+    if (block.landingCount < most) block.landings[block.landingCount] = number;
+    if (block.landingCount <= most) ++block.landingCount;
 }
 
 // The step from a special texel; false where the streamline ends.

@@ -61,8 +61,8 @@ struct Source {
 
 }  // namespace
 
-// Nobody numbers drawn hairs. Their rank is even along each and independent of the neighbour's: odd hairs are those
-// around the middle, hue and brightness go up and down over the ranks at different rates.
+// Nobody numbers drawn hairs. Their rank is even along each and independent of the neighbour's: odd hairs are the
+// lowest, hue and brightness go up and down over the ranks at different rates.
 LicColours::Variation LicColours::variation(float hue, float value, float mutants, float rank) {
     Variation v;
     if (hue > 0.0f || value > 0.0f) {
@@ -75,7 +75,7 @@ LicColours::Variation LicColours::variation(float hue, float value, float mutant
         v.turn[2] = static_cast<float>((third + s) * brightness);
     }
     if (mutants > 0.0f) {
-        const float inside = (0.5f * mutants - std::abs(rank - 0.5f)) / std::min(0.25f * mutants, 0.05f);
+        const float inside = (mutants - rank) / std::min(0.5f * mutants, 0.05f);
         v.mutant = std::clamp(0.5f + inside, 0.0f, 1.0f);
     }
     return v;

@@ -2,14 +2,11 @@
 #include "core/lic/painter.h"
 
 #include "core/base/parallel.h"
-#include "core/lic/lic_changes.h"
-#include "core/lic/lic_colours.h"
-#include "core/lic/lic_cover.h"
-#include "core/lic/lic_words.h"
+#include "core/lic/painter_state.h"
+#include "core/sampling/density.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 namespace whorl {
 namespace {
@@ -22,63 +19,7 @@ const Map* mapOf(const Groom& groom, const std::string& name) {
     return found && !found->empty() ? found : nullptr;
 }
 
-// What has to be made again, one a block.
-struct Stale {
-    explicit Stale(std::size_t blocks)
-        : steps(blocks),
-          noise(blocks),
-          lengths(blocks),
-          light(blocks),
-          density(blocks),
-          border(blocks),
-          opacity(blocks),
-          cover(blocks),
-          colours(blocks) {}
-    LicBlocks steps, noise, lengths, light, density, border, opacity, cover, colours;
-    bool partings = false, ranks = false;
-};
-
-bool anyOf(const LicBlocks& blocks) {
-    return std::ranges::find(blocks, 1) != blocks.end();
-}
-
 }  // namespace
-
-struct LicPainter::State {
-    explicit State(TexelAtlas texels)
-        : atlas(std::move(texels)), words(atlas), cover(atlas), colours(atlas), changes(atlas) {
-        light.assign(atlas.slots().size(), 0);
-        hair.assign(atlas.slots().size(), 0);
-        landings.resize(atlas.blockCount());
-    }
-
-    Stale staleAgainst(const Groom& groom, const DirectionField& now, const LicPlan& next, bool fresh) const;
-    void densityAgainst(const Groom& groom, Stale& stale) const;
-    void coloursAgainst(const Groom& groom, Stale& stale) const;
-    void setLengths(const Groom& groom, const LicBlocks& blocks);
-    bool convolve(const LicBlocks& blocks, Progress& progress);
-    template <class T, class Value>
-    void write(std::shared_ptr<const std::vector<T>>& layer, std::size_t channels, const LicBlocks& blocks, bool fresh,
-               Value&& value) const;
-    void setTangents(LicTexture& texture, std::span<const std::uint32_t> triangles) const;
-
-    const TexelAtlas atlas;
-    std::mutex mutex;
-    LicWords words;
-    LicCover cover;
-    LicColours colours;
-    const LicChanges changes;
-    std::vector<std::uint16_t> lengths;  // by block, empty without a map
-    std::vector<std::uint8_t> light;     // one a slot, as `hair`
-    std::vector<std::uint8_t> hair;
-    std::vector<std::vector<std::uint32_t>> landings;  // by block: those that its streamlines jump to; `none`: many
-    // What was painted last.
-    bool painted = false;
-    Groom groom;
-    DirectionField field;
-    LicPlan plan;
-    LicTexture texture;
-};
 
 Result<LicPainter> LicPainter::make(std::shared_ptr<const Surface> surface, int size, Progress& progress,
                                     LicLayout layout) {
@@ -93,83 +34,6 @@ int LicPainter::size() const {
 
 const TexelAtlas& LicPainter::atlas() const {
     return m_state->atlas;
-}
-
-void LicPainter::State::densityAgainst(const Groom& now, Stale& stale) const {
-    const bool same = now.groups->size() == groom.groups->size() &&
-                      (now.partSettings.sameAs(groom.partSettings) || *now.partSettings == *groom.partSettings);
-    if (!same) {
-        LicChanges::addAll(stale.density);
-        return;
-    }
-    changes.addMap(groom, groom.counts->groupMap.name, now, now.counts->groupMap.name, stale.density);
-    for (std::size_t g = 0; g < now.groups->size(); ++g) {
-        const Driven& was = (*groom.groups)[g].params.general.density;
-        const Driven& is = (*now.groups)[g].params.general.density;
-        if (was.value != is.value) LicChanges::addAll(stale.density);
-        changes.addMap(groom, was.map, now, is.map, stale.density);
-    }
-}
-
-void LicPainter::State::coloursAgainst(const Groom& now, Stale& stale) const {
-    bool same = now.groups->size() == groom.groups->size() && now.lic->colourPlace == groom.lic->colourPlace;
-    for (std::size_t g = 0; same && g < now.groups->size(); ++g)
-        same = (*now.groups)[g].params.colour == (*groom.groups)[g].params.colour;
-    const std::vector<std::string> names = LicColours::mapNames(now), before = LicColours::mapNames(groom);
-    if (!same || names.size() != before.size()) {
-        LicChanges::addAll(stale.colours);
-        return;
-    }
-    for (std::size_t i = 0; i < names.size(); ++i) changes.addMap(groom, before[i], now, names[i], stale.colours);
-}
-
-Stale LicPainter::State::staleAgainst(const Groom& now, const DirectionField& nowField, const LicPlan& next,
-                                      bool fresh) const {
-    Stale stale(atlas.blockCount());
-    const LicParams& is = *now.lic;
-    const LicParams& was = *groom.lic;
-    if (fresh) {
-        for (LicBlocks* all : {&stale.steps, &stale.noise, &stale.lengths, &stale.light, &stale.density, &stale.border,
-                               &stale.opacity, &stale.cover, &stale.colours})
-            LicChanges::addAll(*all);
-        stale.partings = stale.ranks = true;
-        return stale;
-    }
-    stale.partings = !now.partings.sameAs(groom.partings) && *now.partings != *groom.partings;
-    stale.ranks = next.hairDeviation != plan.hairDeviation;
-    if (stale.partings || next.stepMetres != plan.stepMetres || next.longestStep != plan.longestStep)
-        LicChanges::addAll(stale.steps);
-    changes.addTriangles(changes.triangles(field, nowField), stale.steps);
-    if (is.seed != was.seed || next.mean != plan.mean || next.samples != plan.samples || next.grains != plan.grains)
-        LicChanges::addAll(stale.noise);
-    changes.addMap(groom, was.grain.map, now, is.grain.map, stale.noise);
-    if (next.longest != plan.longest || is.length.value != was.length.value) LicChanges::addAll(stale.lengths);
-    changes.addMap(groom, was.length.map, now, is.length.map, stale.lengths);
-    densityAgainst(now, stale);
-    changes.addTriangles(changes.grown(field, nowField), stale.density);
-
-    if (anyOf(stale.steps) || anyOf(stale.noise)) {
-        LicChanges::add(stale.steps, stale.light);
-        LicChanges::add(stale.noise, stale.light);
-        atlas.spread(stale.light, next.longestStep * static_cast<float>(next.steps), false);
-        // Streamlines that come there over a seam: so far they have gone as they went last time.
-        const LicBlocks near = stale.light;
-        for (std::size_t b = 0; b < landings.size(); ++b)
-            for (const std::uint32_t there : landings[b])
-                stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
-    }
-    LicChanges::add(stale.lengths, stale.light);
-    if (next.weights != plan.weights || next.steps != plan.steps) LicChanges::addAll(stale.light);
-    LicChanges::add(stale.density, stale.border);
-    if (anyOf(stale.border)) atlas.spread(stale.border, cover.borderReach(is.border) + 1.0f, true);
-    if (is.border != was.border) LicChanges::addAll(stale.border);
-    if (is.opacity.value != was.opacity.value) LicChanges::addAll(stale.opacity);
-    changes.addMap(groom, was.opacity.map, now, is.opacity.map, stale.opacity);
-    for (const LicBlocks* part : {&stale.light, &stale.density, &stale.border, &stale.opacity})
-        LicChanges::add(*part, stale.cover);
-    if (stale.ranks) LicChanges::addAll(stale.cover);
-    coloursAgainst(now, stale);
-    return stale;
 }
 
 void LicPainter::State::setLengths(const Groom& now, const LicBlocks& blocks) {
@@ -286,13 +150,14 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
                        before->cover != s.texture.cover || before->colours != s.texture.colours ||
                        before->tangents != s.texture.tangents;
     const LicPlan plan = licPlan(*groom.lic, s.atlas, mapOf(groom, groom.lic->length.map));
-    Stale stale = s.staleAgainst(groom, field, plan, fresh);
+    LicStale stale = s.staleAgainst(groom, field, plan, fresh);
     std::vector<std::uint32_t> turned = s.changes.triangles(fresh ? DirectionField() : s.field, field);
     LicTexture next = s.texture;
     s.painted = false;  // until all is done
     s.groom = groom;
     s.field = field;
     s.plan = plan;
+    s.densityScale = DensityLookup(groom).scale();
     if (stale.partings) s.words.setPartings(*groom.partings);
     if (anyOf(stale.steps)) s.words.setSteps(field, plan, stale.steps);
     if (progress.cancelled()) return cancelledError();

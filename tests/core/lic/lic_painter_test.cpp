@@ -289,6 +289,14 @@ private Q_SLOTS:
         check("kernel");
         scene.lic().length.value = 0.02f;
         check("length of all");
+        // A map of floats in which a dab is brighter than all was.
+        groom.maps.set("density", Map(256, 256, 1, TexelFormat::F32, 0.5f));
+        groom.maps.set("length", Map(256, 256, 1, TexelFormat::F32, 0.5f));
+        check("maps of floats");
+        dab("density", {100, 100}, 3.0f);
+        check("bright dab of density");
+        dab("length", {100, 100}, 3.0f);
+        check("bright dab of length");
         scene.lic().contrast = 0.1f;
         const LicTexture same = painted(painter, scene, &last);
         QVERIFY(same.light == last.light && same.cover == last.cover && same.colours == last.colours &&

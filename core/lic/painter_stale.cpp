@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/lic/painter_state.h"
+#include "core/sampling/density.h"
+
+namespace whorl {
+
+void LicPainter::State::densityAgainst(const Groom& now, LicStale& stale) const {
+    const bool same = now.groups->size() == groom.groups->size() &&
+                      (now.partSettings.sameAs(groom.partSettings) || *now.partSettings == *groom.partSettings);
+    // Densities count in shares of what a map of floats holds at most.
+    if (!same || DensityLookup(now).scale() != densityScale) {
+        LicChanges::addAll(stale.density);
+        return;
+    }
+    changes.addMap(groom, groom.counts->groupMap.name, now, now.counts->groupMap.name, stale.density);
+    for (std::size_t g = 0; g < now.groups->size(); ++g) {
+        const Driven& was = (*groom.groups)[g].params.general.density;
+        const Driven& is = (*now.groups)[g].params.general.density;
+        if (was.value != is.value) LicChanges::addAll(stale.density);
+        changes.addMap(groom, was.map, now, is.map, stale.density);
+    }
+}
+
+void LicPainter::State::coloursAgainst(const Groom& now, LicStale& stale) const {
+    bool same = now.groups->size() == groom.groups->size() && now.lic->colourPlace == groom.lic->colourPlace;
+    for (std::size_t g = 0; same && g < now.groups->size(); ++g)
+        same = (*now.groups)[g].params.colour == (*groom.groups)[g].params.colour;
+    const std::vector<std::string> names = LicColours::mapNames(now), before = LicColours::mapNames(groom);
+    if (!same || names.size() != before.size()) {
+        LicChanges::addAll(stale.colours);
+        return;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) changes.addMap(groom, before[i], now, names[i], stale.colours);
+}
+
+LicStale LicPainter::State::staleAgainst(const Groom& now, const DirectionField& nowField, const LicPlan& next,
+                                         bool fresh) const {
+    LicStale stale(atlas.blockCount());
+    const LicParams& is = *now.lic;
+    const LicParams& was = *groom.lic;
+    if (fresh) {
+        for (LicBlocks* all : {&stale.steps, &stale.noise, &stale.lengths, &stale.light, &stale.density, &stale.border,
+                               &stale.opacity, &stale.cover, &stale.colours})
+            LicChanges::addAll(*all);
+        stale.partings = stale.ranks = true;
+        return stale;
+    }
+    stale.partings = !now.partings.sameAs(groom.partings) && *now.partings != *groom.partings;
+    stale.ranks = next.hairDeviation != plan.hairDeviation;
+    if (stale.partings || next.stepMetres != plan.stepMetres || next.longestStep != plan.longestStep)
+        LicChanges::addAll(stale.steps);
+    changes.addTriangles(changes.triangles(field, nowField), stale.steps);
+    if (is.seed != was.seed || next.mean != plan.mean || next.samples != plan.samples || next.grains != plan.grains)
+        LicChanges::addAll(stale.noise);
+    changes.addMap(groom, was.grain.map, now, is.grain.map, stale.noise);
+    if (next.longest != plan.longest || is.length.value != was.length.value) LicChanges::addAll(stale.lengths);
+    changes.addMap(groom, was.length.map, now, is.length.map, stale.lengths);
+    densityAgainst(now, stale);
+    changes.addTriangles(changes.grown(field, nowField), stale.density);
+
+    if (anyOf(stale.steps) || anyOf(stale.noise)) {
+        LicChanges::add(stale.steps, stale.light);
+        LicChanges::add(stale.noise, stale.light);
+        atlas.spread(stale.light, next.longestStep * static_cast<float>(next.steps), false);
+        // Streamlines that come there over a seam: so far they have gone as they went last time.
+        const LicBlocks near = stale.light;
+        for (std::size_t b = 0; b < landings.size(); ++b)
+            for (const std::uint32_t there : landings[b])
+                stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
+    }
+    LicChanges::add(stale.lengths, stale.light);
+    if (next.weights != plan.weights || next.steps != plan.steps) LicChanges::addAll(stale.light);
+    LicChanges::add(stale.density, stale.border);
+    if (anyOf(stale.border)) atlas.spread(stale.border, cover.borderReach(is.border) + 1.0f, true);
+    if (is.border != was.border) LicChanges::addAll(stale.border);
+    if (is.opacity.value != was.opacity.value) LicChanges::addAll(stale.opacity);
+    changes.addMap(groom, was.opacity.map, now, is.opacity.map, stale.opacity);
+    for (const LicBlocks* part : {&stale.light, &stale.density, &stale.border, &stale.opacity})
+        LicChanges::add(*part, stale.cover);
+    if (stale.ranks) LicChanges::addAll(stale.cover);
+    coloursAgainst(now, stale);
+    return stale;
+}
+
+}  // namespace whorl
