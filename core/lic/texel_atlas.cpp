@@ -119,25 +119,14 @@ void TexelAtlas::place(Raster& raster) {
             const glm::dvec2 middle(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
             Slot slot{static_cast<std::uint32_t>(texel), raster.owner[texel], 0.0f, 0.0f};
             if (slot.triangle == none && raster.seam[texel] != none) {
-                const auto way = raster.unfold(raster.seam[texel] / 3, raster.seam[texel] % 3);
-                if (!way) continue;
-                const glm::dvec2 to = way->to + way->turn * (middle - way->from);
-                if (!(std::abs(to.x) < 1e6 && std::abs(to.y) < 1e6)) continue;
-                // The triangle that the place falls into, or the neighbour's own plane where none covers the texel.
-                slot.triangle = way->other;
-                if (to.x >= 0.0 && to.y >= 0.0 && to.x < static_cast<double>(m_side) &&
-                    to.y < static_cast<double>(m_side)) {
-                    const std::uint32_t covers =
-                        raster.owner[static_cast<std::size_t>(to.y) * width + static_cast<std::size_t>(to.x)];
-                    if (covers != none && raster.charts[covers] == raster.charts[way->other]) slot.triangle = covers;
-                }
-                const glm::dvec2 s = raster.shares(slot.triangle, to);
-                slot.u = static_cast<float>(std::clamp(s.x, -8.0, 8.0));
-                slot.v = static_cast<float>(std::clamp(s.y, -8.0, 8.0));
-                beyond.push_back({slot.texel,
-                                  {static_cast<float>(way->turn[0][0]), static_cast<float>(way->turn[1][0]),
-                                   static_cast<float>(way->turn[0][1]), static_cast<float>(way->turn[1][1])},
-                                  {static_cast<float>(to.x), static_cast<float>(to.y)}});
+                const auto there = raster.beyond(raster.seam[texel], glm::vec2(middle));
+                if (!there) continue;
+                slot.triangle = there->point.triangle;
+                slot.u = there->point.u;
+                slot.v = there->point.v;
+                const glm::mat2& turn = there->turn;
+                beyond.push_back(
+                    {slot.texel, {turn[0][0], turn[1][0], turn[0][1], turn[1][1]}, {there->place.x, there->place.y}});
             } else if (slot.triangle != none) {
                 const glm::dvec2 s = raster.shares(slot.triangle, middle);
                 slot.u = static_cast<float>(s.x);

@@ -15,7 +15,7 @@
 
 // Texels are numbered in a square of `side` that has a frame of `pad` around the texture, so that steps off its edge
 // stay in memory. A texel whose middle no triangle covers, but that lies at most `margin` texels outside a seam, stands
-// for the place beyond the seam: the neighbouring triangle is unfolded over the edge. Further texels around charts are
+// for the place that is as far beyond the seam, straight on over the skin. Further texels around charts are
 // filled with what is near.
 
 namespace whorl {
@@ -39,7 +39,7 @@ public:
     static Result<TexelAtlas> make(std::shared_ptr<const Surface> surface, int size, LicLayout layout,
                                    Progress& progress);
 
-    /// A texel that has a place. `u` and `v` may lie somewhat outside the triangle in margins.
+    /// A texel that has a place.
     struct Slot {
         std::uint32_t texel;
         std::uint32_t triangle;

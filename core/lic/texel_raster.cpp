@@ -16,7 +16,8 @@ constexpr double slack = 1e-6;  // of a share: edges between triangles leave no 
 
 }  // namespace
 
-TexelAtlas::Raster::Raster(const TexelAtlas& texels) : atlas(texels), across(trianglesAcross(texels.mesh())) {
+TexelAtlas::Raster::Raster(const TexelAtlas& texels)
+    : atlas(texels), across(trianglesAcross(texels.mesh())), walk(texels.mesh()) {
     const auto count = static_cast<std::size_t>(atlas.side()) * static_cast<std::size_t>(atlas.side());
     owner.assign(count, none);
     seam.assign(count, none);
@@ -146,39 +147,37 @@ bool TexelAtlas::Raster::roomFor(LicLayout layout) const {
     return twice * 200 <= covered && taken * 50 <= besideSeams;
 }
 
-std::optional<TexelAtlas::Raster::Unfolded> TexelAtlas::Raster::unfold(std::uint32_t triangle,
-                                                                       std::uint32_t edge) const {
+std::optional<TexelAtlas::Raster::Beyond> TexelAtlas::Raster::beyond(std::uint32_t seamEdge,
+                                                                     const glm::vec2& place) const {
     const SurfaceMesh& mesh = atlas.mesh();
-    Unfolded result;
-    result.other = across[triangle][edge];
-    const glm::uvec3 here = mesh.triangles[triangle], there = mesh.triangles[result.other];
-    const std::uint32_t k1 = (edge + 1) % 3, k2 = (edge + 2) % 3;
-    std::uint32_t j[3] = {0, 0, 0};
-    for (std::uint32_t i = 0; i < 3; ++i) j[there[i] == here[edge] ? 0 : there[i] == here[k1] ? 1 : 2] = i;
-    const auto at = [&](std::uint32_t t, std::uint32_t k) { return glm::dvec2(atlas.texelPlace(t * 3ull + k)); };
-    const glm::dvec3 first(mesh.positions[here[edge]]);
-    const glm::dvec3 along = glm::dvec3(mesh.positions[here[k1]]) - first;
-    const double length = glm::length(along);
-    if (!(length > 0.0)) return std::nullopt;
-    const glm::dvec3 axis = along / length;
-    // A third corner in the plane of its triangle: along the edge and away from it.
-    const auto flat = [&](const glm::vec3& corner) {
-        const glm::dvec3 d = glm::dvec3(corner) - first;
-        const double way = glm::dot(d, axis);
-        return glm::dvec2(way, glm::length(d - axis * way));
+    const std::uint32_t triangle = seamEdge / 3, k = seamEdge % 3, next = (k + 1) % 3;
+    // From the nearest place of the edge straight on over the skin.
+    const glm::vec2 a = atlas.texelPlace(triangle * 3ull + k), along = atlas.texelPlace(triangle * 3ull + next) - a;
+    const float share = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.001f, 0.999f);
+    const glm::vec2 over = place - (a + along * share);
+    float corners[3] = {0.0f, 0.0f, 0.0f};
+    corners[k] = 1.0f - share;
+    corners[next] = share;
+    const Gradients g = atlas.gradients(triangle);
+    const float xx = glm::dot(g.x, g.x), yy = glm::dot(g.y, g.y), xy = glm::dot(g.x, g.y), area = xx * yy - xy * xy;
+    if (!(area > 1e-6f * xx * yy)) return std::nullopt;
+    const glm::vec3 way = (g.x * (yy * over.x - xy * over.y) + g.y * (xx * over.y - xy * over.x)) / area;
+    const float metres = glm::length(way);
+    if (!(metres > 0.0f)) return std::nullopt;
+    const SurfaceWalk::Step step = walk.go(mesh, {triangle, corners[1], corners[2]}, way, metres);
+    if (step.walked < metres * 0.999f || step.point.triangle == triangle) return std::nullopt;
+    // Both planes by the way and what is to its left, in texels.
+    const auto axes = [&](std::uint32_t t, const glm::vec3& ahead) {
+        const Gradients in = atlas.gradients(t);
+        const glm::vec3 left = glm::cross(triangleNormal(mesh, t), ahead);
+        return glm::mat2(glm::dot(in.x, ahead), glm::dot(in.y, ahead), glm::dot(in.x, left), glm::dot(in.y, left));
     };
-    const glm::dvec2 ours = flat(mesh.positions[here[k2]]), theirs = flat(mesh.positions[there[j[2]]]);
-    if (!(ours.y > 1e-6 * length) || !(theirs.y > 1e-6 * length)) return std::nullopt;
-    // Columns: where the axes of the unfolded plane (along, towards our inside) go in texels.
-    const glm::dvec2 a = at(triangle, edge), ax = (at(triangle, k1) - a) / length;
-    const glm::dmat2 hereFromPlane(ax, (at(triangle, k2) - a - ax * ours.x) / ours.y);
-    const glm::dvec2 b = at(result.other, j[0]), bx = (at(result.other, j[1]) - b) / length;
-    const glm::dmat2 thereFromPlane(bx, -(at(result.other, j[2]) - b - bx * theirs.x) / theirs.y);
-    if (!(std::abs(glm::determinant(hereFromPlane)) > 1e-9)) return std::nullopt;
-    result.turn = thereFromPlane * glm::inverse(hereFromPlane);
-    result.from = a;
-    result.to = b;
-    return result;
+    const glm::mat2 here = axes(triangle, way / metres), there = axes(step.point.triangle, step.direction);
+    if (!(std::abs(glm::determinant(here)) > 1e-9f)) return std::nullopt;
+    Beyond found{there * glm::inverse(here), glm::vec2(0.0f), step.point};
+    const float shares[3] = {1.0f - step.point.u - step.point.v, step.point.u, step.point.v};
+    for (std::size_t c = 0; c < 3; ++c) found.place += atlas.texelPlace(step.point.triangle * 3ull + c) * shares[c];
+    return found;
 }
 
 }  // namespace whorl

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/lic/texel_atlas.h"
+#include "core/surface/surface_walk.h"
 
 #include <glm/mat2x2.hpp>
 
@@ -14,6 +15,7 @@ namespace whorl {
 struct TexelAtlas::Raster {
     const TexelAtlas& atlas;
     std::vector<std::array<std::uint32_t, 3>> across;
+    SurfaceWalk walk;
     std::vector<std::uint32_t> charts;  ///< one a triangle
     PlainVector<std::uint32_t> owner;   ///< triangle whose UVs hold the middle of the texel
     PlainVector<std::uint32_t> seam;    ///< 3 * triangle + edge: the nearest seam of which the texel is outside
@@ -29,14 +31,13 @@ struct TexelAtlas::Raster {
     /// Shares of corners 1 and 2 at a place in texels.
     glm::dvec2 shares(std::uint32_t triangle, const glm::dvec2& place) const;
 
-    /// A place outside an edge of `triangle`, in texels: `to` + `turn` * (place - first corner of the edge), in the
-    /// plane of `other`.
-    struct Unfolded {
-        glm::dmat2 turn{1.0};
-        glm::dvec2 from{0.0}, to{0.0};
-        std::uint32_t other = none;
+    /// What a place outside a seam (in texels) stands for: another place, and how the plane of texels is turned there.
+    struct Beyond {
+        glm::mat2 turn{1.0f};
+        glm::vec2 place{0.0f};
+        SurfacePoint point;
     };
-    std::optional<Unfolded> unfold(std::uint32_t triangle, std::uint32_t edge) const;
+    std::optional<Beyond> beyond(std::uint32_t seamEdge, const glm::vec2& place) const;
 
 private:
     void cover();
