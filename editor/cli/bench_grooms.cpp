@@ -136,6 +136,16 @@ BenchDocument benchDocument(const std::string& sample) {
     return {"ball, as there is no sample " + sample, benchGroom()};
 }
 
+Groom inStrands(Groom groom) {
+    for (Group& group : groom.groups.edit()) {
+        StrandParams& strands = group.params.strands;
+        strands.hairs = 16;
+        strands.twist.value = 3.0f;
+        strands.offset.value = 0.002f;
+    }
+    return groom;
+}
+
 std::uint64_t digestOf(const Strands& strands) {
     Hasher hasher;
     strands.addTo(hasher);

@@ -26,6 +26,9 @@ struct BenchDocument {
 };
 BenchDocument benchDocument(const std::string& sample = "creature");
 
+/// Each hair is a strand of sixteen, which twists around its base hair and stands away from it.
+Groom inStrands(Groom groom);
+
 std::uint64_t digestOf(const Strands& strands);
 
 /// All hair in memory, as Generator::generateShared gives it; empty when that failed.

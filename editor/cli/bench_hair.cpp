@@ -161,6 +161,8 @@ std::vector<BenchRow> stages(const std::string& name, const Groom& groom) {
 
 std::vector<BenchRow> benchHair() {
     const Groom plain = benchGroom(), outside = benchGroom({true, false}), kinked = benchGroom({true, true});
+    BenchDocument sample = benchDocument();
+    sample.groom.countAnew();
     std::vector<BenchRow> rows = {
         fromNothing("100k x 16 from nothing", plain, 100000, 1),
         fromNothing("100k x 16 from nothing, kinked", benchGroom({false, true}), 100000, 1),
@@ -173,6 +175,8 @@ std::vector<BenchRow> benchHair() {
         cached("100k x 16, neighbours kept, outside the skin", outside, 100000, 2),
         many("1600k x 16 from nothing", plain, 1600000, 2, false),
         many("1600k x 16, neighbours kept", plain, 1600000, 2, true),
+        many("1600k of the " + sample.name + " from nothing", sample.groom, 1600000, 2, false),
+        many("1600k of the " + sample.name + ", neighbours kept", sample.groom, 1600000, 2, true),
         binding("neighbours of 100k", plain, 100000),
         binding("neighbours of 1600k", plain, 1600000),
     };

@@ -4,27 +4,17 @@
 #include "core/hair/reference.h"
 #include "editor/cli/bench_grooms.h"
 
+#include <utility>
+
 namespace whorl {
 namespace {
-
-constexpr int members = 16;
-
-Groom strandGroom() {
-    Groom groom = benchGroom();
-    StrandParams& strands = groom.groups.edit()[0].params.strands;
-    strands.hairs = members;
-    strands.twist.value = 3.0f;
-    strands.offset.value = 0.002f;
-    return groom;
-}
 
 // The reference makes an eighth of the hairs; its time counts eight times.
 constexpr std::uint32_t shares = 8;
 
 // Base hairs keep their neighbours; they and their strands are made again.
-BenchRow inMemory(const std::string& name, std::uint32_t base, unsigned threads) {
+BenchRow inMemory(const std::string& name, Groom groom, std::uint32_t base, unsigned threads) {
     const ThreadLimit limit(threads);
-    Groom groom = strandGroom();
     const auto surface = std::make_shared<const Surface>(groom.mesh);
     Progress progress;
     Generator kept;
@@ -33,7 +23,7 @@ BenchRow inMemory(const std::string& name, std::uint32_t base, unsigned threads)
     Strands slow;
     Medians seconds = interleaved(
         [&] {
-            groom.groups.edit()[0].params.strands.tipSplay.value += 1e-6f;
+            for (Group& group : groom.groups.edit()) group.params.strands.tipSplay.value += 1e-6f;
             fast.reset();
             fast = made(kept, groom, {base});
         },
@@ -49,9 +39,8 @@ BenchRow inMemory(const std::string& name, std::uint32_t base, unsigned threads)
 }
 
 // Handed over block by block and not kept, as a renderer takes it.
-BenchRow streamed(const std::string& name, std::uint32_t base, unsigned threads) {
+BenchRow streamed(const std::string& name, const Groom& groom, std::uint32_t base, unsigned threads) {
     const ThreadLimit limit(threads);
-    const Groom groom = strandGroom();
     const auto surface = std::make_shared<const Surface>(groom.mesh);
     Progress progress;
     Generator kept;
@@ -90,12 +79,18 @@ BenchRow streamed(const std::string& name, std::uint32_t base, unsigned threads)
 }  // namespace
 
 std::vector<BenchRow> benchStrands() {
+    const Groom ball = inStrands(benchGroom());
+    BenchDocument sample = benchDocument();
+    sample.groom = inStrands(std::move(sample.groom));
+    sample.groom.countAnew();
     return {
-        inMemory("400k x 16 of 25k base hairs", 25000, 1),
-        inMemory("1600k x 16 of 100k base hairs", 100000, 1),
-        inMemory("1600k x 16 of 100k base hairs", 100000, 2),
-        streamed("1600k x 16 of 100k base hairs, streamed from roots on", 100000, 1),
-        streamed("1600k x 16 of 100k base hairs, streamed from roots on", 100000, 2),
+        inMemory("400k x 16 of 25k base hairs", ball, 25000, 1),
+        inMemory("1600k x 16 of 100k base hairs", ball, 100000, 1),
+        inMemory("1600k x 16 of 100k base hairs", ball, 100000, 2),
+        inMemory("1600k of 100k base hairs of the " + sample.name, sample.groom, 100000, 2),
+        streamed("1600k x 16 of 100k base hairs, streamed from roots on", ball, 100000, 1),
+        streamed("1600k x 16 of 100k base hairs, streamed from roots on", ball, 100000, 2),
+        streamed("1600k of 100k base hairs of the " + sample.name + ", streamed", sample.groom, 100000, 2),
     };
 }
 
