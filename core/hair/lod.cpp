@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace whorl {
 
@@ -26,6 +27,21 @@ float lodForScreen(const SeenCoat& coat, std::uint32_t hairs, float hairsPerPixe
 
 float lodForCount(std::uint32_t hairs, std::uint32_t most) {
     return most >= hairs ? 1.0f : static_cast<float>(static_cast<double>(most) / static_cast<double>(hairs));
+}
+
+Groom atDetail(Groom groom, float share) {
+    if (!(share > 0.0f) || share >= 1.0f) return groom;
+    CountParams& counts = groom.counts.edit();
+    counts.hairs = static_cast<int>(std::lround(static_cast<double>(counts.hairs) * static_cast<double>(share)));
+    for (Group& group : groom.groups.edit()) {
+        GeneralParams::each(group.params.general, [&](const ParamInfo& info, auto& value) {
+            if constexpr (std::is_same_v<decltype(value), Driven&>) {
+                if (&value == &group.params.general.rootThickness || &value == &group.params.general.tipThickness)
+                    value.value = std::min(value.value / share, static_cast<float>(info.max));
+            }
+        });
+    }
+    return groom;
 }
 
 }  // namespace whorl

@@ -2,6 +2,8 @@
 // How many hairs a coat needs at the size that it is seen at.
 #pragma once
 
+#include "core/model/groom.h"
+
 #include <cstdint>
 
 namespace whorl {
@@ -25,5 +27,9 @@ float lodForScreen(const SeenCoat& coat, std::uint32_t hairs, float hairsPerPixe
 
 /// The share that leaves at most `most` of `hairs` hairs.
 float lodForCount(std::uint32_t hairs, std::uint32_t most);
+
+/// `groom` at a level of detail for good, as GenerateOptions::lod makes it: `share` of its hairs (above 0, at most 1),
+/// a subset of all, and as much wider, but not wider than a groom may have them.
+Groom atDetail(Groom groom, float share);
 
 }  // namespace whorl

@@ -76,6 +76,12 @@ Result<void> addDensity(Groom& groom, const std::filesystem::path& image) {
     return {};
 }
 
+CLI::Option* addLod(CLI::App& program, float& share) {
+    return program
+        .add_option("--lod", share, "Level of detail: this share of the hairs, a subset of all, and as much wider")
+        ->check(CLI::Range(0.001, 1.0));
+}
+
 std::optional<std::uint64_t> wholeNumber(std::string_view text, std::uint64_t low, std::uint64_t high) {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -67,6 +67,9 @@ void note(const std::string& text);
 bool print(const std::string& text);
 Outcome printed(const std::string& text);
 
+/// --lod of programs that make hair: see GenerateOptions::lod.
+CLI::Option* addLod(CLI::App& program, float& share);
+
 /// "12,3" and the like: whole text, in range, without looking at the locale.
 std::optional<std::uint64_t> wholeNumber(std::string_view text, std::uint64_t low, std::uint64_t high);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/changes.h"
+#include "core/hair/lod.h"
 #include "core/io/package.h"
 #include "editor/cli/cli.h"
 
@@ -11,6 +12,7 @@ namespace {
 struct Options {
     std::string file;
     std::string output;
+    float lod = 1.0f;
     std::uint32_t parts = 0;
     std::string frames;
     double perSecond = 24.0;
@@ -46,6 +48,7 @@ Outcome exportGroom(const Options& options) {
     if (!groom) return badInput(groom.error());
     if (!frames.empty() && !isAnimated(*groom))
         note(options.output + ": no hair moves with time (animated frizz), so the boxes of all frames are the same.");
+    *groom = atDetail(std::move(*groom), options.lod);
     if (auto written = exportPackage(*groom, options.output, options.parts, progress(), nullptr, frames); !written) {
         return badInput(written.error());
     }
@@ -62,6 +65,7 @@ void addExport(CLI::App& app) {
     program->add_option("-o,--output", options->output, "Package to write, NAME.groom")->required();
     program->add_option("--parts", options->parts, "Pieces; without it the groom's number")
         ->check(CLI::Range(1u, 4096u));
+    addLod(*program, options->lod);
     program->add_option("--frames", options->frames, "Keeps the boxes of frames A-B, in which animated frizz moves");
     program->add_option("--fps", options->perSecond, "Frames a second of --frames")->check(CLI::Range(0.001, 10000.0));
 }

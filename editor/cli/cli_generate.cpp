@@ -13,6 +13,7 @@ struct Options {
     std::string output;
     std::string part;
     std::optional<std::uint32_t> count;
+    float lod = 1.0f;
     std::uint32_t parts = 1;
     std::uint32_t threads = 0;
 };
@@ -35,6 +36,7 @@ Outcome generate(const Options& options) {
         generateOptions.part = static_cast<std::uint32_t>(*index - 1);
         generateOptions.partCount = static_cast<std::uint32_t>(*of);
     }
+    generateOptions.lod = options.lod;
     const ThreadLimit limit(options.threads);
     auto groom = openWithGuides(options.file);
     if (!groom) return badInput(groom.error());
@@ -71,6 +73,7 @@ void addGenerate(CLI::App& app) {
                                    [options] { return generate(*options); });
     addCommon(program, options);
     program->add_option("--part", options->part, "Only part I of N, 1/8 to 8/8");
+    addLod(*program, options->lod);
     program->add_option("-o,--output", options->output, "File to write")->required();
 }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/generate.h"
+#include "core/hair/lod.h"
 #include "core/io/image.h"
 #include "core/lic/live_texture.h"
 #include "editor/cli/cli.h"
 #include "render/offscreen.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 
 namespace whorl::cli {
 namespace {
@@ -18,8 +23,21 @@ struct Options {
     std::string camera = "front";
     std::string map;
     int texture = 2048;
+    float lod = 1.0f;
+    bool lodForSize = false;
     std::optional<std::uint32_t> count;
 };
+
+// What the mesh is seen at; hair that stands far out only makes it smaller.
+float lodAtSize(const Groom& groom, const Surface& surface, const std::string& name, glm::vec2 viewport) {
+    const auto camera = Camera::named(name, surface.bounds, viewport);
+    if (!camera) return 1.0f;
+    return lodForScreen({.radius = 0.5f * glm::length(surface.bounds.size()),
+                         .distance = camera->distance,
+                         .fieldOfView = camera->fieldOfView,
+                         .imageHeight = viewport.y},
+                        static_cast<std::uint32_t>(std::max(groom.counts->hairs, 0)));
+}
 
 Outcome render(const Options& options) {
     const std::size_t cross = options.size.find('x');
@@ -60,6 +78,7 @@ Outcome render(const Options& options) {
         generator.setSurface(surface);
         GenerateOptions generateOptions;
         if (options.count) groom->setHairs(*options.count);
+        generateOptions.lod = options.lodForSize ? lodAtSize(*groom, *surface, options.camera, viewport) : options.lod;
         auto made = generator.generate(*groom, generateOptions, progress());
         if (!made) return badInput(made.error());
         strands = std::make_shared<Strands>(std::move(*made));
@@ -105,6 +124,11 @@ void addRender(CLI::App& app) {
     program->add_option("--texture", options->texture, "Texels a side of hair texture; 2048 without it")
         ->check(CLI::Range(1, LicPainter::maxSize));
     program->add_option("--map", options->map, "Map to show in colour over the mesh");
+    CLI::Option* share = addLod(*program, options->lod);
+    program
+        ->add_flag("--lod-for-size", options->lodForSize,
+                   "The level of detail that the size of the picture asks for: two hairs a pixel")
+        ->excludes(share);
     program->add_option("--count", options->count, "Hairs instead of the groom's number")
         ->check(CLI::Range(0u, 10000000u));
 }

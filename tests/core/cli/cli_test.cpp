@@ -112,6 +112,12 @@ private Q_SLOTS:
         refused({"render", meshFile(), "-o", inScratch("x.png"), "--size", "12"}, 2, "--size");
         refused({"render", meshFile(), "-o", inScratch("x.png"), "--camera", "above"}, 2, "--camera");
         refused({"export", meshFile(), "-o", inScratch("x.zip")}, 2, ".groom");
+        for (const char* share : {"0", "1.5", "-1", "half"}) {
+            refused({"generate", meshFile(), "--lod", share, "-o", inScratch("x.ply")}, 2, "--lod");
+            refused({"export", meshFile(), "--lod", share, "-o", inScratch("x.groom")}, 2, "--lod");
+            refused({"render", meshFile(), "--lod", share, "-o", inScratch("x.png")}, 2, "--lod");
+        }
+        refused({"render", meshFile(), "--lod", "0.5", "--lod-for-size", "-o", inScratch("x.png")}, 2, "--lod");
         refused({"bench", "no such benchmark"}, 2, "comb");
         QVERIFY(!QFile::exists(inScratch("x.whorl")) && !QFile::exists(inScratch("x.ply")));
     }
@@ -173,6 +179,32 @@ private Q_SLOTS:
         const qsizetype header = bytes.indexOf("end_header\n") + 11;
         QVERIFY(bytes.left(header).contains("element vertex 777\n"));
         QCOMPARE(bytes.size() - header, qsizetype{777 * 32});
+    }
+
+    void fewerAndWiderHairsOnRequest() {
+        const QString document = inScratch("detail.whorl");
+        QCOMPARE(run({"new", meshFile(), "-o", document, "--guides", "40"}).status, 0);
+        const auto points = [&](const QStringList& more) {
+            const QString file = inScratch("detail.hair");
+            const Answer answer = run(QStringList{"generate", document, "--count", "4000", "-o", file} + more);
+            return answer.status == 0 ? QFileInfo(file).size() : 0;
+        };
+        const double all = static_cast<double>(points({})), some = static_cast<double>(points({"--lod", "0.25"}));
+        QVERIFY(all > 100000.0 && std::abs(some / all - 0.25) < 0.02);
+        const QString package = inScratch("detail.groom");
+        QCOMPARE(run({"export", document, "--lod", "0.1", "-o", package}).status, 0);
+        const auto facts = [&](const QString& file) {
+            return QJsonDocument::fromJson(run({"info", file, "--json"}).output).object()["parameters"].toObject();
+        };
+        const QString thickness = "groups/hair/general/root_thickness";
+        QVERIFY(facts(document).contains(thickness));
+        QCOMPARE(facts(package)["counts/hairs"].toInt(), facts(document)["counts/hairs"].toInt() / 10);
+        QVERIFY(std::abs(facts(package)[thickness].toDouble() / facts(document)[thickness].toDouble() - 10.0) < 1e-3);
+        for (const QStringList& detail : {QStringList{"--lod", "0.1"}, QStringList{"--lod-for-size"}}) {
+            const QStringList picture{"render", document, "-o", inScratch("detail.png"), "--size", "64x48"};
+            const Answer answer = run(picture + detail);
+            QVERIFY2(answer.status == 0, answer.errors.constData());
+        }
     }
 
     void hairTextureIsBakedAndWorn() {

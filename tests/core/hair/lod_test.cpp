@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 using namespace whorl;
 
@@ -66,6 +67,30 @@ private Q_SLOTS:
         QCOMPARE(lodForCount(100, 25), 0.25f);
         QCOMPARE(lodForCount(0, 0), 1.0f);
         QCOMPARE(lodForCount(10, 0), 0.0f);
+    }
+
+    void aGroomAtADetailHasFewerAndWiderHairs() {
+        Groom groom = testing::groomOn(testing::sphere(20, 40), 100, 8);
+        groom.counts.edit().hairs = 4000;
+        groom.groups.edit()[0].params.general.tipThickness.value = 0.04f;
+        Generator generator;
+        Progress progress;
+        const Strands all = *generator.generate(groom, {}, progress);
+        const Groom quarter = atDetail(groom, 0.25f);
+        const Strands some = *generator.generate(quarter, {}, progress);
+        QVERIFY(std::abs(static_cast<int>(some.count()) - 1000) < 12);
+        std::map<std::uint32_t, std::size_t> places;
+        for (std::size_t i = 0; i < all.count(); ++i) places[all.ids[i]] = i;
+        for (std::size_t i = 0; i < some.count(); ++i) {
+            QVERIFY(places.contains(some.ids[i]));
+            const std::size_t a = some.firstVertex[i], b = all.firstVertex[places[some.ids[i]]];
+            QVERIFY(some.roots[i] == all.roots[places[some.ids[i]]] && some.positions[a + 5] == all.positions[b + 5]);
+            QVERIFY(std::abs(some.widths[a] - 4.0f * all.widths[b]) < 1e-6f * some.widths[a]);
+        }
+        // Not wider than a groom may have them; all of it is the groom as it is.
+        QCOMPARE((*quarter.groups)[0].params.general.tipThickness.value, 0.1f);
+        QVERIFY(checkGroom(quarter).empty());
+        QVERIFY(atDetail(groom, 1.0f).groups.sameAs(groom.groups));
     }
 
     void farHairIsASubsetOfNearHair() {
