@@ -80,7 +80,7 @@ Result<HairExplanation> explainHair(const Groom& groom, std::shared_ptr<const Su
     const std::uint32_t most = sampler->limitOf(255, source.request.rate);
     const bool even = (id & evenId) != 0;
     source.sampler.prepare(source.request, progress);
-    if ((id & ~evenId) >= most || (even && !density.anyEven()))
+    if (numberOf(id) >= most || (even && !density.anyEven()))
         return Error{"There is no hair " + std::to_string(id) + "; numbers of this groom's hairs are below " +
                      std::to_string(most) + "."};
     const GuideIndex index(groom);
@@ -103,7 +103,7 @@ Result<HairExplanation> explainHair(const Groom& groom, std::shared_ptr<const Su
                  : "Hairs of its group keep apart, so they have other numbers: from " + std::to_string(evenId) + " on.";
     } else if (!(hair.density > 0.0f)) {
         hair.why = "The density at its root is zero.";
-    } else if ((id & ~evenId) >= sampler->limitOf(place.code, source.request.rate)) {
+    } else if (numberOf(id) >= sampler->limitOf(place.code, source.request.rate)) {
         hair.why = "Its root is there for more hair than the density asks for.";
     } else if (hair.guides.empty()) {
         hair.why = hair.separated.empty() ? "Its group has no guides." : "Partings separate it from all guides.";

@@ -36,6 +36,11 @@ const HairFormat* hairFormatFor(const std::filesystem::path& file) {
     return nullptr;
 }
 
+bool wantsNormals(const Groom& groom) {
+    return std::any_of(groom.groups->begin(), groom.groups->end(),
+                       [](const Group& group) { return group.params.general.writeNormals; });
+}
+
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,
                                 Progress& progress, std::shared_ptr<const Surface> surface) {
     const HairFormat* format = hairFormatFor(file);
@@ -44,7 +49,7 @@ Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& optio
         for (const HairFormat& f : formats) known += (known.empty() ? "." : ", .") + std::string(f.suffix);
         return Error{file.string() + ": hair can not be written in this format; use one of " + known + "."};
     }
-    Result<std::unique_ptr<HairWriter>> writer = format->open(file);
+    Result<std::unique_ptr<HairWriter>> writer = format->open(file, wantsNormals(groom));
     if (!writer) return writer.error();
     std::uint64_t hairs = 0;
     std::optional<Error> fault;

@@ -25,11 +25,15 @@ public:
 struct HairFormat {
     std::string_view suffix;  ///< "ply"
     std::string_view label;   ///< "Stanford PLY, points and edges"
-    Result<std::unique_ptr<HairWriter>> (*open)(const std::filesystem::path& file);
+    /// `normals`: the file holds them, if its format has a place for them.
+    Result<std::unique_ptr<HairWriter>> (*open)(const std::filesystem::path& file, bool normals);
 };
 std::span<const HairFormat> hairFormats();
 /// By suffix of `file`; null for an unknown one.
 const HairFormat* hairFormatFor(const std::filesystem::path& file);
+
+/// True when a group has general/write_normals on: files hold the normals of all hair or of none.
+bool wantsNormals(const Groom& groom);
 
 /// Generates and writes in blocks: constant memory for any number of hairs. `surface`: that of the groom's mesh when it
 /// is at hand.

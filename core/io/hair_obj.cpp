@@ -51,7 +51,7 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<HairWriter>> openHairObj(const std::filesystem::path& file) {
+Result<std::unique_ptr<HairWriter>> openHairObj(const std::filesystem::path& file, bool /*normals*/) {
     Result<SafeFile> safe = SafeFile::create(file);
     if (!safe) return safe.error();
     return std::unique_ptr<HairWriter>(std::make_unique<ObjWriter>(std::move(*safe)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/hair_formats.h"
 #include "core/io/safe_file.h"
+#include "core/sampling/root_sampler.h"
 
 #include <array>
 #include <charconv>
@@ -12,7 +13,7 @@ namespace {
 /// RIB as text. Values are named and classed as the render-time library gives them to RenderMan (ri_curves.cpp).
 class RibWriter : public HairWriter {
 public:
-    explicit RibWriter(SafeFile file) : m_file(std::move(file)) {}
+    RibWriter(SafeFile file, bool normals) : m_file(std::move(file)), m_normals(normals) {}
 
     Result<void> add(const Strands& block) override {
         if (const Result<void> begun = begin(); !begun) return begun;
@@ -22,8 +23,10 @@ public:
         eachVertex(block, 2, [&](std::uint32_t v) { three(block.positions[v]); });
         m_text += "]\n\"vertex float width\" [";
         eachVertex(block, 2, [&](std::uint32_t v) { number(block.widths[v]); });
-        m_text += "]\n\"varying normal N\" [";
-        eachVertex(block, 1, [&](std::uint32_t v) { three(block.normals[v]); });
+        if (m_normals) {
+            m_text += "]\n\"varying normal N\" [";
+            eachVertex(block, 1, [&](std::uint32_t v) { three(block.normals[v]); });
+        }
         m_text += "]\n\"varying color Cs\" [";
         eachVertex(block, 1, [&](std::uint32_t v) { three(glm::vec3(block.colours[v])); });
         m_text += "]\n\"varying color Os\" [";
@@ -33,7 +36,9 @@ public:
         m_text += "]\n\"uniform float t\" [";
         for (const glm::vec2& uv : block.rootUvs) number(uv.y);
         m_text += "]\n\"uniform int hair_id\" [";
-        for (const std::uint32_t id : block.ids) number(id);
+        for (const std::uint32_t id : block.ids) number(numberOf(id));
+        m_text += "]\n\"uniform int hair_member\" [";
+        for (const std::uint8_t member : block.members) number(std::uint32_t{member});
         m_text += "]\n\"uniform int hair_group\" [";
         for (const std::uint8_t group : block.groups) number(std::uint32_t{group});
         m_text += "]\n";
@@ -79,16 +84,17 @@ private:
     }
 
     SafeFile m_file;
+    bool m_normals;
     std::string m_text;
     bool m_begun = false;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<HairWriter>> openHairRib(const std::filesystem::path& file) {
+Result<std::unique_ptr<HairWriter>> openHairRib(const std::filesystem::path& file, bool normals) {
     Result<SafeFile> safe = SafeFile::create(file);
     if (!safe) return safe.error();
-    return std::unique_ptr<HairWriter>(std::make_unique<RibWriter>(std::move(*safe)));
+    return std::unique_ptr<HairWriter>(std::make_unique<RibWriter>(std::move(*safe), normals));
 }
 
 }  // namespace whorl

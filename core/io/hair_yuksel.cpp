@@ -107,7 +107,7 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<HairWriter>> openHairYuksel(const std::filesystem::path& file) {
+Result<std::unique_ptr<HairWriter>> openHairYuksel(const std::filesystem::path& file, bool /*normals*/) {
     return YukselWriter::open(file);
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/procedural/ri_curves.h"
 
+#include "core/io/hair_file.h"
+#include "core/procedural/procedural_groom.h"
+#include "core/sampling/root_sampler.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -32,7 +36,8 @@ private:
 
 class CurvesSink {
 public:
-    CurvesSink(const RiHost& host, std::vector<float>& motionTimes) : m_host(host), m_times(motionTimes) {}
+    CurvesSink(const RiHost& host, std::vector<float>& motionTimes, bool normals)
+        : m_host(host), m_times(motionTimes), m_withNormals(normals) {}
 
     static int take(const WhorlHair* block, void* self) {
         static_cast<CurvesSink*>(self)->draw(*block);
@@ -50,7 +55,8 @@ private:
             m_s[i] = hair.root_uvs[2 * i];
             m_t[i] = hair.root_uvs[2 * i + 1];
         }
-        m_ids.assign(hair.ids, hair.ids + hairs);
+        m_ids.clear();
+        for (std::size_t i = 0; i < hairs; ++i) m_ids.push_back(static_cast<RtInt>(numberOf(hair.ids[i])));
         m_members.assign(hair.members, hair.members + hairs);
         m_groups.assign(hair.groups, hair.groups + hairs);
         doubled(hair, hair.widths, 1, m_widths);
@@ -62,11 +68,11 @@ private:
         if (samples > 1) m_host.motionBeginV(static_cast<RtInt>(samples), m_times.data());
         for (std::size_t s = 0; s < samples; ++s) {
             doubled(hair, hair.positions + 3 * s * vertices, 3, m_positions);
-            m_normals.assign(hair.normals + 3 * s * vertices, hair.normals + 3 * (s + 1) * vertices);
+            if (m_withNormals) m_normals.assign(hair.normals + 3 * s * vertices, hair.normals + 3 * (s + 1) * vertices);
             Parameters parameters;
             parameters.add("vertex point P", m_positions);
             parameters.add("vertex float width", m_widths);
-            parameters.add("varying normal N", m_normals);
+            if (m_withNormals) parameters.add("varying normal N", m_normals);
             parameters.add("varying color Cs", m_colours);
             parameters.add("varying color Os", m_opacities);
             parameters.add("uniform float s", m_s);
@@ -95,6 +101,7 @@ private:
 
     const RiHost& m_host;
     std::vector<float>& m_times;
+    bool m_withNormals;
     std::vector<RtInt> m_counts, m_ids, m_members, m_groups;
     std::vector<float> m_positions, m_widths, m_normals, m_colours, m_opacities, m_s, m_t;
 };
@@ -126,7 +133,7 @@ void drawHair(const RiHost& host, const RiRequest& request, SharedGroom& shared,
     }
     host.attributeBegin();
     host.basis(catmullRomBasis, catmullRomStep, catmullRomBasis, catmullRomStep);
-    CurvesSink sink(host, wish.motionTimes);
+    CurvesSink sink(host, wish.motionTimes, wantsNormals(groom->groom));
     status = whorl_stream(groom, &wish.request, CurvesSink::take, &sink, &error);
     host.attributeEnd();
     if (status != WHORL_OK) host.tell(codeOf(status), error.text);

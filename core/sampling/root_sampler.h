@@ -36,6 +36,10 @@ struct RootRequest {
 
 /// Ids of hairs that keep apart have this bit: their numbers in another sequence (EvenSequence).
 inline constexpr std::uint32_t evenId = 0x80000000u;
+/// The number without that bit, which other programs can take as a signed one: unique in the hair's group.
+inline constexpr std::uint32_t numberOf(std::uint32_t id) {
+    return id & ~evenId;
+}
 
 /// The density of all places of a surface: triangles are subdivided 1:4 as the reference's are (see
 /// sub_triangle_sampler.h), with one byte a piece. No piece depends on another, so paint moves no hair but under the

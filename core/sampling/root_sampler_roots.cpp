@@ -50,7 +50,7 @@ std::uint8_t RootSampler::codeAt(std::size_t place, std::uint32_t share) const {
 
 RootSampler::Candidate RootSampler::candidate(std::uint32_t seed, std::uint32_t index) const {
     assert(!m_curve->empty());
-    if (index & evenId) return evenCandidate(seed, index & ~evenId);
+    if (index & evenId) return evenCandidate(seed, numberOf(index));
     const CandidateKeys keys = candidateKeys(seed);
     Candidate found;
     found.unit = unitOf(stratumOf(keys, index));

@@ -167,6 +167,32 @@ private Q_SLOTS:
         }
     }
 
+    void normalsAreLeftOutWhereNoGroupAsksForThem() {
+        Groom groom = hairy();
+        groom.groups.edit()[0].params.general.writeNormals = false;
+        const std::filesystem::path folder = testing::scratchFolder("hair-normals");
+        Progress progress;
+        for (const char* name : {"a.rib", "a.ply"}) QVERIFY(writeHair(groom, {hairs}, folder / name, progress));
+        const std::string rib = bytesOf(folder / "a.rib"), ply = bytesOf(folder / "a.ply");
+        QVERIFY(rib.find("normal") == std::string::npos &&
+                rib.find("\"uniform int hair_member\"") != std::string::npos);
+        const std::size_t body = ply.find("end_header\n") + 11, vertices = expected().vertexCount();
+        QVERIFY(ply.substr(0, body).find("nx") == std::string::npos);
+        QCOMPARE(ply.size(), body + vertices * 20 + (vertices - expected().count()) * 8);
+        for (std::size_t v = 0; v < vertices; ++v) {
+            glm::vec3 position;
+            float width = 0.0f;
+            std::memcpy(&position, ply.data() + body + v * 20, 12);
+            std::memcpy(&width, ply.data() + body + v * 20 + 12, 4);
+            QVERIFY(position == expected().positions[v] && width == expected().widths[v]);
+        }
+        // One group that asks is enough.
+        groom.groups.edit().push_back((*groom.groups)[0]);
+        QVERIFY(!wantsNormals(groom));
+        groom.groups.edit()[1].params.general.writeNormals = true;
+        QVERIFY(wantsNormals(groom));
+    }
+
     void anObjFileHoldsLinesOfTwo() {
         std::istringstream text(bytesOf(written("a.obj")));
         std::string word, line;

@@ -2,12 +2,14 @@
 // A host of the RenderMan interface that loads the library as renderers do and records what it is told.
 #include "core/hair/curve.h"
 #include "core/hair/generate.h"
+#include "core/io/hair_file.h"
 #include "tests/core/procedural/procedural_hair.h"
 #include "tests/support/shapes.h"
 
 #include <dlfcn.h>
 
 #include <QTest>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 using namespace whorl;
@@ -161,8 +164,8 @@ Curves joined(const Recording& recording, std::size_t sample = 0) {
     return all;
 }
 
-/// True when the curves are these strands, with the first and the last vertex twice.
-bool same(Curves curves, const Strands& strands) {
+/// True when the curves are these strands, with the first and the last vertex twice, with normals or without.
+bool same(Curves curves, const Strands& strands, bool withNormals = true) {
     std::vector<float> positions, widths, normals, colours, opacities, s, t;
     std::vector<int> counts, ids, members, groups;
     const auto three = [](std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); };
@@ -178,17 +181,19 @@ bool same(Curves curves, const Strands& strands) {
             three(opacities, glm::vec3(strands.colours[v].w));
         }
         counts.push_back(static_cast<int>(end - first) + 2);
-        ids.push_back(static_cast<int>(strands.ids[i]));
+        ids.push_back(static_cast<int>(strands.ids[i] & 0x7fffffffu));
         members.push_back(strands.members[i]);
         groups.push_back(strands.groups[i]);
         s.push_back(strands.rootUvs[i].x);
         t.push_back(strands.rootUvs[i].y);
     }
     auto& f = curves.floats;
+    const std::size_t given = f.size();
+    if (!withNormals) normals.clear();
     return curves.vertices == counts && f["P"] == positions && f["width"] == widths && f["N"] == normals &&
            f["Cs"] == colours && f["Os"] == opacities && f["s"] == s && f["t"] == t && curves.ints["hair_id"] == ids &&
            curves.ints["hair_member"] == members && curves.ints["hair_group"] == groups && f.size() == 7 &&
-           curves.ints.size() == 3;
+           given == (withNormals ? 7u : 6u) && curves.ints.size() == 3;
 }
 
 Strands hairOf(const Groom& groom, const GenerateOptions& options) {
@@ -230,12 +235,12 @@ private Q_SLOTS:
                 QVERIFY(told.motions.empty());
                 for (const auto& block : told.blocks)
                     QVERIFY(block[0].type == "cubic" && block[0].wrap == "nonperiodic");
-                QVERIFY(same(joined(told), hairOf(groom, {.part = part, .partCount = 3})));
+                QVERIFY(same(joined(told), hairOf(groom, {.part = part, .partCount = 3}), wantsNormals(groom)));
             }
             // Without a part the whole, also in other numbers of parts.
-            QVERIFY(same(joined(drawn("'" + package.string() + "'")), hairOf(groom, {})));
+            QVERIFY(same(joined(drawn("'" + package.string() + "'")), hairOf(groom, {}), wantsNormals(groom)));
             QVERIFY(same(joined(drawn("'" + package.string() + "' part=6 parts=7")),
-                         hairOf(groom, {.part = 6, .partCount = 7})));
+                         hairOf(groom, {.part = 6, .partCount = 7}), wantsNormals(groom)));
         }
     }
 
@@ -266,7 +271,7 @@ private Q_SLOTS:
         library().subdivide2(&context, everything, 4, tokens, values);
         Recording told = taken();
         QVERIFY(told.errors.empty() && !told.faults && told.context == &context);
-        QVERIFY(same(joined(told), hairOf(groom, {.part = 2, .partCount = 4})));
+        QVERIFY(same(joined(told), hairOf(groom, {.part = 2, .partCount = 4}), wantsNormals(groom)));
 
         float boxes[2][6];
         library().bound(4, tokens, values, boxes);
@@ -285,7 +290,42 @@ private Q_SLOTS:
         told = taken();
         Groom fewer = groom;
         fewer.counts.edit().hairs = 50;
-        QVERIFY(told.errors.empty() && same(joined(told), hairOf(fewer, {})));
+        QVERIFY(told.errors.empty() && same(joined(told), hairOf(fewer, {}), wantsNormals(groom)));
+    }
+
+    void everyHairHasItsOwnNumbers() {
+        // Hairs that keep apart have ids from 2^31 on, which no signed number holds; here they and others grow
+        // together.
+        Groom groom = movingGroom();
+        std::vector<Group>& groups = groom.groups.edit();
+        groups[0].params.strands.hairs = 3;
+        groups.push_back(groups[0]);
+        groups[1].name = "even";
+        groups[1].params.general.even = true;
+        Map numbers(64, 64, 1, TexelFormat::U8, 0.0f);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 32; x < 64; ++x) numbers.setTexel(x, y, 0, 1.0f / 255.0f);
+        groom.maps.set("numbers", numbers);
+        groom.counts.edit().groupMap.name = "numbers";
+        for (std::size_t i = 0; i < groom.guides.count(); ++i)
+            groom.guides.setGroup(i, static_cast<std::uint8_t>(i % 2));
+        const fs::path folder = scratchFolder("renderman-numbers");
+        Curves curves = joined(drawn(exported(groom, folder / "a.groom", 2).string()));
+        std::set<std::array<int, 3>> seen;
+        for (std::size_t i = 0; i < curves.vertices.size(); ++i) {
+            QVERIFY(curves.ints["hair_id"][i] >= 0);
+            seen.insert({curves.ints["hair_group"][i], curves.ints["hair_id"][i], curves.ints["hair_member"][i]});
+        }
+        QVERIFY(curves.vertices.size() > 1200);
+        QCOMPARE(seen.size(), curves.vertices.size());
+        const Strands all = hairOf(groom, {});
+        QVERIFY(std::ranges::any_of(all.ids, [](std::uint32_t id) { return id > 0x7fffffffu; }));
+        QVERIFY(same(curves, all));
+        // Normals of all when one group asks for them, of none when none does.
+        groom.groups.edit()[0].params.general.writeNormals = false;
+        QVERIFY(same(joined(drawn(exported(groom, folder / "b.groom", 1).string())), all));
+        groom.groups.edit()[1].params.general.writeNormals = false;
+        QVERIFY(same(joined(drawn(exported(groom, folder / "c.groom", 1).string())), all, false));
     }
 
     void hairMovesInMotionBlocks() {
