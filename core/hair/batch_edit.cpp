@@ -2,6 +2,7 @@
 #include "core/hair/batch_edit.h"
 
 #include "core/base/parallel.h"
+#include "core/hair/copy_strands.h"
 
 #include <algorithm>
 
@@ -151,42 +152,6 @@ HairSize sizeOf(const HairSources& sources, std::uint32_t slot) {
     return {vertices, static_cast<std::uint32_t>(std::max(hairs, 1))};
 }
 
-// Strands [first, last) of the old layout that are `strands` and `vertices` further on in the new one.
-struct Run {
-    std::uint32_t first, last;
-    std::int64_t strands, vertices;
-};
-
-void copyRun(const Run& run, const Strands& from, Strands& to) {
-    const auto copy = [](const auto& source, auto& target, std::size_t first, std::size_t last, std::int64_t by) {
-        std::copy(source.begin() + static_cast<std::ptrdiff_t>(first),
-                  source.begin() + static_cast<std::ptrdiff_t>(last),
-                  target.begin() + (static_cast<std::ptrdiff_t>(first) + by));
-    };
-    copy(from.ids, to.ids, run.first, run.last, run.strands);
-    copy(from.members, to.members, run.first, run.last, run.strands);
-    copy(from.roots, to.roots, run.first, run.last, run.strands);
-    copy(from.rootUvs, to.rootUvs, run.first, run.last, run.strands);
-    copy(from.groups, to.groups, run.first, run.last, run.strands);
-    std::uint32_t* const firstVertex = to.firstVertex.data() + run.strands;
-    for (std::size_t i = run.first + std::size_t{1}; i <= run.last; ++i)
-        firstVertex[i] = static_cast<std::uint32_t>(from.firstVertex[i] + run.vertices);
-    const std::size_t first = from.firstVertex[run.first], last = from.firstVertex[run.last];
-    copy(from.positions, to.positions, first, last, run.vertices);
-    copy(from.normals, to.normals, first, last, run.vertices);
-    copy(from.widths, to.widths, first, last, run.vertices);
-    copy(from.colours, to.colours, first, last, run.vertices);
-}
-
-// In pieces that threads can share.
-void addRuns(const GrownHairs& grown, std::uint32_t first, std::uint32_t last, std::int64_t strands,
-             std::int64_t vertices, std::vector<Run>& runs) {
-    constexpr std::uint32_t most = 1024;
-    const std::uint32_t end = grown.firstStrand[last];
-    for (std::uint32_t at = grown.firstStrand[first]; at < end; at += most)
-        runs.push_back({at, std::min(at + most, end), strands, vertices});
-}
-
 }  // namespace
 
 void renewRoots(const HairParts& parts, const HairLookups& lookups, const HairWish& wish,
@@ -297,7 +262,7 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
     GrownHairs next;
     next.roots.reserve(grown.count() + edit.slots.size());
     next.firstStrand.reserve(next.roots.capacity() + 1);
-    std::vector<Run> runs;
+    std::vector<StrandRun> runs;
     std::vector<HairSize> sizes;  // of the hairs `which`
     std::uint32_t hair = 0;
     std::int64_t vertices = 0;  // more than before, so far
@@ -306,7 +271,7 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
         // Nothing has moved before the first edit.
         const bool moved = hair > 0 || !which.empty();
         const std::uint32_t there = moved ? hair : std::min(last, static_cast<std::uint32_t>(same));
-        addRuns(grown, there, last, by, vertices, runs);
+        addRuns(grown.firstStrand[there], grown.firstStrand[last], by, vertices, runs);
         next.roots.insert(next.roots.end(), grown.roots.begin() + hair, grown.roots.begin() + last);
         for (; hair < last; ++hair)
             next.firstStrand.push_back(static_cast<std::uint32_t>(grown.firstStrand[hair + 1] + by));
@@ -331,9 +296,7 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
     const std::size_t strands = next.firstStrand.back();
     const auto all = static_cast<std::size_t>(static_cast<std::int64_t>(from.vertexCount()) + vertices);
     to.resize(strands, all);
-    parallelFor(runs.size(), 8, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) copyRun(runs[i], from, to);
-    });
+    copyRuns(runs, from, to);
     // Where new hairs begin is where those before them, kept or new, end.
     for (std::size_t i = 0; i < which.size(); ++i) {
         const std::uint32_t first = next.firstStrand[which[i]];
@@ -342,13 +305,6 @@ GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const Ba
         setHair(sources, next, which[i], to);
     }
     return next;
-}
-
-void copyStrands(const Strands& from, Strands& to) {
-    to.resize(from.count(), from.vertexCount());
-    parallelFor(from.count(), 1024, [&](std::size_t begin, std::size_t end) {
-        copyRun({static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), 0, 0}, from, to);
-    });
 }
 
 }  // namespace whorl

@@ -46,7 +46,4 @@ void replaceHairs(const HairSources& sources, const BatchEdit& edit, GrownHairs&
 GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const BatchEdit& edit, const Strands& from,
                    Strands& to, std::size_t same, std::vector<std::uint32_t>& which);
 
-/// to = from, by all threads.
-void copyStrands(const Strands& from, Strands& to);
-
 }  // namespace whorl

@@ -3,6 +3,7 @@
 
 #include "core/base/cow.h"
 #include "core/base/parallel.h"
+#include "core/hair/copy_strands.h"
 #include "core/hair/thin.h"
 
 #include <algorithm>

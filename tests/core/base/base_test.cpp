@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/copy_past.h"
 #include "core/base/cow.h"
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
@@ -8,7 +9,9 @@
 #include "core/base/simd.h"
 
 #include <QtTest>
+#include <algorithm>
 #include <atomic>
+#include <vector>
 
 using namespace whorl;
 
@@ -91,6 +94,21 @@ private Q_SLOTS:
         QVERIFY(!progress.cancelled());
         progress.cancel();
         QVERIFY(progress.cancelled());
+    }
+
+    void copiesPastTheCachesAreCopies() {
+        // Every offset of both, whole lines and rests, and nothing around it is touched.
+        std::vector<char> from(9000);
+        for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<char>(i * 31 + i / 256);
+        for (const std::size_t bytes : {0u, 1u, 63u, 1024u, 1025u, 4096u, 8191u})
+            for (std::size_t a = 0; a < 20; ++a)
+                for (std::size_t b = 0; b < 70; ++b) {
+                    std::vector<char> to(9000, 'x');
+                    copyPast(from.data() + a, to.data() + b, bytes);
+                    QVERIFY(std::equal(from.begin() + a, from.begin() + a + bytes, to.begin() + b));
+                    QVERIFY(std::all_of(to.begin(), to.begin() + b, [](char c) { return c == 'x'; }));
+                    QVERIFY(std::all_of(to.begin() + b + bytes, to.end(), [](char c) { return c == 'x'; }));
+                }
     }
 
     void theSimdLevelNeverPassesTheProcessor() {
