@@ -63,25 +63,27 @@ void lookHairs(const LookArrays& a) {
         const float last = a.last[hair];
         const float width = t.rootWidth, widthSpan = t.tipWidth - t.rootWidth;
         const Quad colour = quads::load(t.rootColour), span = quads::load(t.tipColour) - colour;
-        float *widths = a.widths[hair], *colours = a.colours[hair];
-        const bool widthsPast = a.past && quads::aligned(widths), coloursPast = a.past && quads::aligned(colours);
-        for (std::size_t v = 0; v < whole; v += 4) {
-            // Where the hair ends, its own number takes the place of the table's.
-            float along[4];
-            quads::store(quads::load(a.along + v), along);
-            if (end - v < 4) along[end - v] = last;
-            const Quad wide = width + widthSpan * quads::load(along);
-            widthsPast ? quads::storePast(wide, widths + v) : quads::store(wide, widths + v);
-            for (std::size_t i = 0; i < 4; ++i) {
-                const Quad tint = colour + span * along[i];
-                float* to = colours + (v + i) * 4;
-                coloursPast ? quads::storePast(tint, to) : quads::store(tint, to);
+        for (std::size_t member = 0; member < a.members; ++member) {
+            float *widths = a.widths[hair] + member * vertices, *colours = a.colours[hair] + member * 4 * vertices;
+            const bool widthsPast = a.past && quads::aligned(widths), coloursPast = a.past && quads::aligned(colours);
+            for (std::size_t v = 0; v < whole; v += 4) {
+                // Where the hair ends, its own number takes the place of the table's.
+                float along[4];
+                quads::store(quads::load(a.along + v), along);
+                if (end - v < 4) along[end - v] = last;
+                const Quad wide = width + widthSpan * quads::load(along);
+                widthsPast ? quads::storePast(wide, widths + v) : quads::store(wide, widths + v);
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const Quad tint = colour + span * along[i];
+                    float* to = colours + (v + i) * 4;
+                    coloursPast ? quads::storePast(tint, to) : quads::store(tint, to);
+                }
             }
-        }
-        for (std::size_t v = whole; v < vertices; ++v) {
-            const float along = v < end ? a.along[v] : last;
-            widths[v] = width + widthSpan * along;
-            quads::store(colour + span * along, colours + v * 4);
+            for (std::size_t v = whole; v < vertices; ++v) {
+                const float along = v < end ? a.along[v] : last;
+                widths[v] = width + widthSpan * along;
+                quads::store(colour + span * along, colours + v * 4);
+            }
         }
     }
     if (a.past) quads::storesPastDone();

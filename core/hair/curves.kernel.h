@@ -26,9 +26,10 @@ struct StoreArrays {
     bool past;                      ///< past the caches
 };
 
-/// Widths and colours of hairs.
+/// Widths and colours of hairs and of the members of their strands, which follow each other and are alike.
 struct LookArrays {
     std::size_t count;
+    std::size_t members;              ///< 1: single hairs
     const HairTraits* const* traits;  ///< one a hair
     const std::uint32_t* vertices;    ///< at least 1
     const float* last;                ///< curve parameter of the last vertex

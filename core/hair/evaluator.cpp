@@ -111,14 +111,19 @@ void Evaluator::shape(const GroupTables& group) {
 }
 
 void Evaluator::keepOutside(const GroupTables& group) {
+    const SkinGuard& skin = *m_sources.skin;
+    SkinGuard::Start starts[lanes];
+    skin.findStarts(m_row[0].data(), m_row[1].data(), m_row[2].data(), group.ease, group.vertices(), starts);
     m_points.resize(group.vertices());
     for (std::size_t l = 0; l < lanes; ++l) {
+        if (starts[l].first >= m_points.size()) continue;
+        // Lanes without a hair of their own repeat the last one's points.
         if (l < m_count) {
-            for (std::size_t v = 0; v < m_points.size(); ++v)
+            for (std::size_t v = starts[l].first - 1; v < m_points.size(); ++v)
                 m_points[v] = {m_row[0][v * lanes + l], m_row[1][v * lanes + l], m_row[2][v * lanes + l]};
-            m_sources.skin->keepOutside(m_points, group.ease);
+            skin.keepFrom(starts[l], m_points, group.ease);
         }
-        for (std::size_t v = 0; v < m_points.size(); ++v) {
+        for (std::size_t v = starts[l].first; v < m_points.size(); ++v) {
             m_row[0][v * lanes + l] = m_points[v].x;
             m_row[1][v * lanes + l] = m_points[v].y;
             m_row[2][v * lanes + l] = m_points[v].z;
@@ -191,17 +196,14 @@ void Evaluator::look(const GroupTables& group) {
         widths[l] = &m_strands.widths[first];
         colours[l] = &m_strands.colours[first].x;
     }
+    const std::size_t members = std::max<std::size_t>(group.members, 1);
+    const bool tapered = !m_sources.chain.looks(group.group).empty();
     WHORL_PICK(lookHairs)
-    ({m_count, m_traits, m_vertices, last, group.along.data(), widths, colours, m_past});
-    if (!m_sources.chain.looks(group.group).empty()) {
-        for (std::size_t l = 0; l < m_count; ++l) taper(group, l, last[l], widths[l]);
-    }
-    for (std::size_t l = 0; l < m_count && group.members > 1; ++l) {
-        for (std::uint32_t member = 1; member < group.members; ++member) {
-            const std::size_t to = m_strands.firstVertex[m_firstStrand[l] + member];
-            std::copy_n(widths[l], m_vertices[l], &m_strands.widths[to]);
-            std::copy_n(colours[l], std::size_t{4} * m_vertices[l], &m_strands.colours[to].x);
-        }
+    ({m_count, members, m_traits, m_vertices, last, group.along.data(), widths, colours, m_past && !tapered});
+    for (std::size_t l = 0; l < m_count && tapered; ++l) {
+        taper(group, l, last[l], widths[l]);
+        for (std::size_t member = 1; member < members; ++member)
+            std::copy_n(widths[l], m_vertices[l], widths[l] + member * m_vertices[l]);
     }
 }
 

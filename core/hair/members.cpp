@@ -76,16 +76,21 @@ void Evaluator::makeMembers(const GroupTables& group) {
     }
     const std::uint32_t most = *std::max_element(m_vertices, m_vertices + lanes);
     const auto seed = static_cast<std::uint32_t>(m_sources.groom.counts->seed);
+    const auto channel = [](HairChannel of) { return static_cast<std::uint32_t>(of); };
+    const std::uint32_t channels[3] = {channel(HairChannel::MemberRadius), channel(HairChannel::MemberTurn),
+                                       channel(HairChannel::MemberLift)};
+    std::uint32_t ids[lanes];
+    float randomise[lanes], aspect[lanes], strandTurn[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+        ids[l] = m_sources.roots[m_roots[l]].id;
+        randomise[l] = m_traits[l]->memberRandomise;
+        aspect[l] = m_traits[l]->memberAspect;
+        strandTurn[l] = randomFloat(seed, ids[l], channel(HairChannel::StrandTurn));
+    }
     for (std::uint32_t member = 0; member < group.members; ++member) {
         float across[lanes], up[lanes], lift[lanes];
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const HairTraits& t = *m_traits[l];
-            const MemberPlace place = memberPlace(seed, m_sources.roots[m_roots[l]].id, member, group.members,
-                                                  t.memberRandomise, t.memberAspect);
-            across[l] = place.across;
-            up[l] = place.up;
-            lift[l] = place.lift;
-        }
+        WHORL_PICK(memberPlaces)
+        ({seed, ids, member, group.members, channels, randomise, aspect, strandTurn, across, up, lift});
         const auto base = pointers(m_row), normal = pointers(m_normal), u = pointers(m_u), v = pointers(m_v),
                    w = pointers(m_w);
         const MemberPoints points{most,

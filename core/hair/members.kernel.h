@@ -5,6 +5,7 @@
 #include "core/base/simd.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace whorl {
 
@@ -53,6 +54,22 @@ struct MemberPoints {
     float* pointNormal[3];
 };
 
+/// Places of one member of sixteen strands: see memberPlace.
+struct PlaceArrays {
+    std::uint32_t seed;
+    const std::uint32_t* hairs;  ///< ids, one a lane
+    std::uint32_t member;
+    std::uint32_t count;            ///< hairs of a strand
+    const std::uint32_t* channels;  ///< of radius, turn and lift
+    const float* randomise;         ///< one a lane
+    const float* aspect;
+    const float* strandTurn;  ///< random number of the strand
+    // Out.
+    float* across;
+    float* up;
+    float* lift;
+};
+
 #define WHORL_MEMBER_KERNELS(level)                                        \
     namespace level {                                                      \
     /* U, V and W of base hairs. */                                        \
@@ -60,6 +77,7 @@ struct MemberPoints {
     /* Points of one member a base hair and its normals, across its own */ \
     /* direction, made from those of the base hair. */                     \
     void strandMembers(const MemberPoints& arrays);                        \
+    void memberPlaces(const PlaceArrays& arrays);                          \
     }
 WHORL_EACH_SIMD_LEVEL(WHORL_MEMBER_KERNELS)
 #undef WHORL_MEMBER_KERNELS

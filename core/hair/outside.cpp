@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/outside.h"
 
+#include "core/hair/outside.kernel.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -22,6 +24,8 @@ float smoothMax(float a, float b, float width) {
 // a neck's floor) have no inside beyond the band, so a dive has to be seen on its way through the band.
 constexpr float deepBands = 0.6f;
 constexpr float passingBands = 0.3f;
+// A long way to beyond this may lead through the whole band.
+constexpr float wholeBand = 0.9f;
 
 // Pieces that `step` is looked at in: one of them ends in the band below passingBands if the step goes through it.
 int piecesOf(const DistanceField& skin, const glm::vec3& step) {
@@ -59,7 +63,6 @@ bool SkinGuard::dives(const glm::vec3& from, float distanceFrom, const glm::vec3
     const float band = m_skin->band();
     if (distanceTo < -deepBands * band) return true;
     // Through the whole band, into what looks like far outside: only then is there something to find in between.
-    constexpr float wholeBand = 0.9f;
     const glm::vec3 step = to - from;
     const float reach = distanceFrom + wholeBand * band;
     if (distanceTo < wholeBand * band || glm::dot(step, step) < reach * reach) return false;
@@ -70,12 +73,23 @@ bool SkinGuard::dives(const glm::vec3& from, float distanceFrom, const glm::vec3
     return false;
 }
 
-void SkinGuard::keepOutside(std::span<glm::vec3> points, std::span<const float> ease) const {
+void SkinGuard::findStarts(const float* x, const float* y, const float* z, std::span<const float> ease,
+                           std::size_t vertices, Start (&starts)[lanes]) const {
+    int first[lanes];
+    float awayBefore[lanes];
+    const float band = m_skin->band();
+    WHORL_PICK(freeOfSkin)
+    ({m_skin->arrays(), x, y, z, vertices, ease.data(), m_clearance, deepBands * band, wholeBand * band, first,
+      awayBefore});
+    for (std::size_t l = 0; l < lanes; ++l) starts[l] = {static_cast<std::size_t>(first[l]), awayBefore[l]};
+}
+
+void SkinGuard::keepFrom(Start start, std::span<glm::vec3> points, std::span<const float> ease) const {
     const DistanceField& skin = *m_skin;
     bool diverted = false;
-    float awayBefore = 0.0f;
-    glm::vec3 wishedBefore = points[0];
-    for (std::size_t v = 1; v < points.size(); ++v) {
+    float awayBefore = start.awayBefore;
+    glm::vec3 wishedBefore = points[start.first - 1];
+    for (std::size_t v = start.first; v < points.size(); ++v) {
         const glm::vec3 wished = points[v];
         const glm::vec3 before = points[v - 1];
         const glm::vec3 step = wished - wishedBefore;

@@ -26,7 +26,19 @@ public:
     /// twice the clearance stay where they are, those between are eased over; the first vertex never moves. A hair that
     /// dives deeper than the field reaches is laid along the skin instead, and goes on from there in its own
     /// directions.
-    void keepOutside(std::span<glm::vec3> points, std::span<const float> ease) const;
+    void keepOutside(std::span<glm::vec3> points, std::span<const float> ease) const { keepFrom({}, points, ease); }
+
+    /// Where `keepOutside` begins to do something: vertices before `first` stay.
+    struct Start {
+        std::size_t first = 1;
+        float awayBefore = 0.0f;  ///< distance of the vertex before
+    };
+    static constexpr std::size_t lanes = 16;
+    /// Of sixteen hairs in lanes: coordinate of vertex v of lane l at [v * 16 + l]. `vertices` where nothing is to do.
+    void findStarts(const float* x, const float* y, const float* z, std::span<const float> ease, std::size_t vertices,
+                    Start (&starts)[lanes]) const;
+    /// As keepOutside, for a hair that starts so.
+    void keepFrom(Start start, std::span<glm::vec3> points, std::span<const float> ease) const;
 
 private:
     bool dives(const glm::vec3& from, float distanceFrom, const glm::vec3& to, float distanceTo) const;

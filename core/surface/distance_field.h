@@ -4,6 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/model/surface_mesh.h"
+#include "core/surface/field_arrays.h"
 
 #include <glm/vec3.hpp>
 
@@ -45,18 +46,22 @@ public:
     glm::vec3 gradient(const glm::vec3& p) const { return sample(p).gradient(); }
     float band() const { return m_band; }
     float spacing() const { return m_spacing; }
+    FieldArrays arrays() const {
+        return {{m_origin.x, m_origin.y, m_origin.z},
+                {m_last.x, m_last.y, m_last.z},
+                m_perMetre,
+                m_band,
+                {m_brickCounts[0], m_brickCounts[1]},
+                m_bricks.data(),
+                m_nodes.data()};
+    }
 
 private:
-    // Cells lie in bricks of 3 x 3 x 3, whose 4 x 4 x 4 nodes are stored together: a cell is two cache lines. Bricks
-    // that are entirely beyond the band have no nodes.
-    static constexpr int brickCells = 3;
-    static constexpr int brickNodes = 4;
+    static constexpr int brickCells = FieldArrays::brickCells;
+    static constexpr int brickNodes = FieldArrays::brickNodes;
     static constexpr int nodesOfBrick = brickNodes * brickNodes * brickNodes;
-    enum Brick : std::int32_t {
-        FarInside = -2,
-        FarOutside = -1
-    };                                        // otherwise: place of its nodes, and the bit `flips`
-    static constexpr std::int32_t flips = 1;  // the side changes abruptly in one of its cells
+    enum Brick : std::int32_t { FarInside = FieldArrays::farInside, FarOutside = FieldArrays::farOutside };
+    static constexpr std::int32_t flips = FieldArrays::flips;
 
     Sample sampleNear(std::int32_t brick, const glm::ivec3& cell, const glm::vec3& place) const;
     void storeBricks(const std::vector<float>& values, const int (&size)[3]);

@@ -2,6 +2,7 @@
 #include "core/hair/outside.h"
 
 #include "core/base/random.h"
+#include "core/base/simd.h"
 #include "core/hair/generate.h"
 #include "core/io/mesh_import.h"
 #include "tests/support/shapes.h"
@@ -9,7 +10,9 @@
 #include <glm/geometric.hpp>
 
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace whorl;
 
@@ -127,6 +130,49 @@ private Q_SLOTS:
                 ++moved;
         }
         QVERIFY(moved > 10000);
+    }
+
+    void sixteenHairsAtOnceStartWhereEachOneDoes() {
+        // Hairs that wander in and out; the bytes before the start, and all after it, are those of the whole way.
+        const SkinGuard guard(sphereSurface()->sharedSkin());
+        constexpr std::size_t vertices = 12, lanes = SkinGuard::lanes;
+        std::vector<float> ease;
+        for (std::size_t v = 0; v < vertices; ++v) ease.push_back(std::min(1.0f, static_cast<float>(v) / 4.0f));
+        for (const SimdLevel level : {SimdLevel::Plain, SimdLevel::Avx2, SimdLevel::Avx512}) {
+            setSimdLevel(level);
+            std::size_t free = 0, late = 0;
+            for (std::uint32_t round = 0; round < 200; ++round) {
+                std::vector<std::vector<glm::vec3>> hairs(lanes);
+                std::vector<float> rows[3];
+                for (std::vector<float>& row : rows) row.resize(lanes * vertices);
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const auto dice = [&](std::size_t v, std::uint32_t channel) {
+                        return randomFloat(round, l * 64 + v, channel) - 0.5f;
+                    };
+                    const glm::vec3 way = glm::normalize(glm::vec3(dice(0, 0), dice(0, 1), dice(0, 2)));
+                    const float step = 0.03f * randomFloat(round, l, 3), bend = 0.03f * randomFloat(round, l, 4);
+                    glm::vec3 p = way * 0.1f;
+                    for (std::size_t v = 0; v < vertices; ++v) {
+                        hairs[l].push_back(p);
+                        for (int axis = 0; axis < 3; ++axis) rows[axis][v * lanes + l] = p[axis];
+                        p += way * step + bend * glm::vec3(dice(v, 5), dice(v, 6) - 0.3f, dice(v, 7));
+                    }
+                }
+                SkinGuard::Start starts[lanes];
+                guard.findStarts(rows[0].data(), rows[1].data(), rows[2].data(), ease, vertices, starts);
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    std::vector<glm::vec3> whole = hairs[l], rest = hairs[l];
+                    guard.keepOutside(whole, ease);
+                    QVERIFY(starts[l].first >= 1 && starts[l].first <= vertices);
+                    if (starts[l].first < vertices) guard.keepFrom(starts[l], rest, ease);
+                    QVERIFY(whole == rest);
+                    free += starts[l].first == vertices ? 1 : 0;
+                    late += starts[l].first > 1 && starts[l].first < vertices ? 1 : 0;
+                }
+            }
+            QVERIFY(free > 200 && late > 200);
+        }
+        setSimdLevel(bestSimdLevel());
     }
 
     // A hair through the whole head is laid around it instead of showing again on the other side.

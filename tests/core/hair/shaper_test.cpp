@@ -160,22 +160,25 @@ private Q_SLOTS:
         }
         atEachLevel([&] {
             for (std::uint32_t vertices = 2; vertices <= 21; ++vertices) {
+                const std::uint32_t members = 1 + vertices % 3, all = members * vertices;
                 const float last = (static_cast<float>(vertices) - 1.25f) / 20.0f;
-                std::vector<float> widths(vertices + 2, -1.0f), colours(4 * vertices + 2, -1.0f);
+                std::vector<float> widths(all + 2, -1.0f), colours(4 * all + 2, -1.0f);
                 float* const wide = widths.data();
                 float* const tint = colours.data();
                 const HairTraits* const which = &traits;
                 const auto look = WHORL_PICK(lookHairs);
-                look({1, &which, &vertices, &last, along.data(), &wide, &tint, vertices % 2 == 0});
-                for (std::uint32_t v = 0; v < vertices; ++v) {
+                look({1, members, &which, &vertices, &last, along.data(), &wide, &tint, vertices % 2 == 0});
+                // Members of a strand are alike and follow each other.
+                for (std::uint32_t place = 0; place < all; ++place) {
+                    const std::uint32_t v = place % vertices;
                     const float at = v + 1 < vertices ? along[v] : last;
-                    QVERIFY(std::abs(widths[v] - (3.0f - 2.0f * at)) < 1e-6f);
+                    QVERIFY(std::abs(widths[place] - (3.0f - 2.0f * at)) < 1e-6f);
                     for (std::uint32_t i = 0; i < 4; ++i) {
                         const float root = static_cast<float>(i);
-                        QVERIFY(std::abs(colours[4 * v + i] - (root + (root + 1.0f) * at)) < 1e-6f);
+                        QVERIFY(std::abs(colours[4 * place + i] - (root + (root + 1.0f) * at)) < 1e-6f);
                     }
                 }
-                QVERIFY(widths[vertices] == -1.0f && colours[4 * vertices] == -1.0f);
+                QVERIFY(widths[all] == -1.0f && colours[4 * all] == -1.0f);
             }
         });
     }
