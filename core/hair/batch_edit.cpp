@@ -259,6 +259,13 @@ void replaceHairs(const HairSources& sources, const BatchEdit& edit, GrownHairs&
 GrownHairs spliced(const HairSources& sources, const GrownHairs& grown, const BatchEdit& edit, const Strands& from,
                    Strands& to, std::size_t same, std::vector<std::uint32_t>& which) {
     which.clear();
+    std::size_t mostStrands = from.count(), mostVertices = from.vertexCount();
+    for (const std::uint32_t slot : edit.slots) {
+        const HairSize size = sizeOf(sources, slot);
+        mostStrands += size.members;
+        mostVertices += size.all();
+    }
+    if (!to.makeRoom(mostStrands, mostVertices)) same = 0;
     GrownHairs next;
     next.roots.reserve(grown.count() + edit.slots.size());
     next.firstStrand.reserve(next.roots.capacity() + 1);

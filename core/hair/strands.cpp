@@ -88,6 +88,28 @@ void Strands::resize(std::size_t hairs, std::size_t vertices) {
     colours.resize(vertices);
 }
 
+bool Strands::makeRoom(std::size_t hairs, std::size_t vertices) {
+    const auto has = [](const auto& values, std::size_t count) { return values.capacity() >= count; };
+    if (has(firstVertex, hairs + 1) && has(ids, hairs) && has(members, hairs) && has(roots, hairs) &&
+        has(rootUvs, hairs) && has(groups, hairs) && has(positions, vertices) && has(normals, vertices) &&
+        has(widths, vertices) && has(colours, vertices))
+        return true;
+    *this = Strands();
+    hairs += hairs / 16;
+    vertices += vertices / 16;
+    firstVertex.reserve(hairs + 1);
+    ids.reserve(hairs);
+    members.reserve(hairs);
+    roots.reserve(hairs);
+    rootUvs.reserve(hairs);
+    groups.reserve(hairs);
+    positions.reserve(vertices);
+    normals.reserve(vertices);
+    widths.reserve(vertices);
+    colours.reserve(vertices);
+    return false;
+}
+
 Bounds Strands::bounds() const {
     constexpr std::size_t together = 64, grain = 16;
     const std::size_t blocks = (count() + together - 1) / together;

@@ -41,6 +41,10 @@ struct Strands {
     /// Room for so many; what is new is unset, all but firstVertex[0] is to be filled in.
     void resize(std::size_t hairs, std::size_t vertices);
 
+    /// Memory for so many and a sixteenth more, so that a few more need no other memory. False when it had to be taken
+    /// anew: then what was in the arrays is lost.
+    bool makeRoom(std::size_t hairs, std::size_t vertices);
+
     /// Exact box of the rendered curve with its width, not only of the vertices.
     Bounds bounds() const;
     /// Adds every hair in order: equal for the same hair however it was cut into parts or blocks.
