@@ -10,6 +10,7 @@ namespace whorl {
 std::vector<BenchRow> benchSampler();
 std::vector<BenchRow> benchHair();
 std::vector<BenchRow> benchStrands();
+std::vector<BenchRow> benchParaview();
 std::vector<BenchRow> benchModifiers();
 std::vector<BenchRow> benchEdit();
 std::vector<BenchRow> benchDab();
@@ -33,6 +34,7 @@ std::span<const Bench> benches() {
         Bench{"dab", "Hair after a dab of paint, against a fresh generator", benchDab},
         Bench{"box", "Boxes over rendered curves, against a plain loop", benchBox},
         Bench{"stream", "Memory above the document while 1,600,000 hairs go by", benchStream},
+        Bench{"paraview", "Hair texture, against ParaView's surface LIC where that is installed", benchParaview},
         Bench{"package", "Packages, against the hair that they stand for as it is", benchPackage},
         Bench{"comb", "One step of the comb, against a pass over every point", benchComb},
         Bench{"paint", "One dab of paint on the model, against a pass over every texel", benchPaint},
