@@ -12,6 +12,7 @@
 #include "render/passes/pick.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/shadow_pass.h"
+#include "render/passes/strokes_pass.h"
 
 #include <glm/geometric.hpp>
 
@@ -82,6 +83,7 @@ struct Renderer::State {
     MeshPass mesh;
     GuidesPass guides;
     PartingsPass partings;
+    StrokesPass strokes;
     LineRibbons looked;    // at: the hair
     LineRibbons lookedBy;  // the guides that shape it
     HairPass hair;
@@ -126,6 +128,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     if (!guides) return guides.error();
     Result<PartingsPass> partings = PartingsPass::create();
     if (!partings) return partings.error();
+    Result<StrokesPass> strokes = StrokesPass::create();
+    if (!strokes) return strokes.error();
     Result<LineRibbons> looked = LineRibbons::create();
     if (!looked) return looked.error();
     Result<LineRibbons> lookedBy = LineRibbons::create();
@@ -137,10 +141,11 @@ Result<std::unique_ptr<Renderer>> Renderer::create() {
     Result<OverlayPass> overlay = OverlayPass::create();
     if (!overlay) return overlay.error();
     std::unique_ptr<Renderer> renderer(new Renderer);
-    renderer->m_state = std::unique_ptr<State>(new State{
-        std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
-        std::move(*looked), std::move(*lookedBy), std::move(*hair), ShadowPass(), LicPass(), std::move(*picture),
-        std::move(*overlay), gl::Buffer("scene"), gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
+    renderer->m_state = std::unique_ptr<State>(
+        new State{std::move(*context), gl::VertexArray(), std::move(*mesh), std::move(*guides), std::move(*partings),
+                  std::move(*strokes), std::move(*looked), std::move(*lookedBy), std::move(*hair), ShadowPass(),
+                  LicPass(), std::move(*picture), std::move(*overlay), gl::Buffer("scene"),
+                  gl::TimerQuery("shadow time"), gl::TimerQuery("draw time")});
     renderer->m_state->byProcessor = renderer->m_state->context.software;
     return renderer;
 }
@@ -163,6 +168,10 @@ void Renderer::setGroom(const Groom& groom, std::shared_ptr<const Surface> surfa
     state.groom = groom;
     state.surface = std::move(surface);
     state.uploadMilliseconds = milliseconds(start);
+}
+
+void Renderer::setSingularities(const std::vector<FieldSingularity>& places) {
+    m_state->strokes.setSingularities(m_state->groom, places, m_state->uploads);
 }
 
 void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
@@ -249,6 +258,11 @@ void Renderer::draw(const Camera& camera, const ViewSettings& settings, const Ov
     if (settings.showGuides) {
         state.vertexArray.bind();
         state.partings.draw(size);
+    }
+    if (settings.showStrokes) {
+        state.vertexArray.bind();
+        state.strokes.setGroom(state.groom, settings.pickedStroke, state.uploads);
+        state.strokes.draw(size);
     }
     state.vertexArray.bind();
     state.lookedBy.draw(size, {.root = glm::vec3(0.1f, 0.5f, 1.0f),

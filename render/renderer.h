@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/field/direction_field.h"
 #include "core/hair/strands.h"
 #include "core/lic/texture.h"
 #include "core/model/groom.h"
@@ -40,6 +41,9 @@ public:
 
     /// Colours of the mesh's triangles (linear, opacity last) that ViewSettings::heat shows; may be null.
     void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);
+
+    /// Where the groom's field turns, shown with the strokes.
+    void setSingularities(const std::vector<FieldSingularity>& places);
 
     /// A hair that is looked at and the guides that shape it, drawn over everything; empty for none. Points in the
     /// space of the mesh.

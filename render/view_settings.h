@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace whorl {
@@ -20,7 +21,9 @@ struct ViewSettings {
     /// Hair texture on the mesh (Renderer::setLicTexture), with showHair below the strands, which cast shadows on it.
     bool showLic = false;
     bool showGuides = false;
-    std::string overlayMap{};  ///< map shown in colour over the mesh, or empty
+    bool showStrokes = false;        ///< strokes of the direction field, and where it turns
+    std::uint32_t pickedStroke = 0;  ///< id of the stroke that stands out
+    std::string overlayMap{};        ///< map shown in colour over the mesh, or empty
     float overlayOpacity = 0.65f;
     bool overlayGroups = false;  ///< the map holds numbers of groups: each in its own colour (groupColour)
     bool heat = false;           ///< colours of Renderer::setTriangleColours over the mesh

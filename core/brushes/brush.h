@@ -105,6 +105,7 @@ struct BrushInfo {
     std::string_view tip;       ///< one or two sentences
     std::string_view undoText;  ///< "Comb guides"
     bool paintsMap = false;
+    bool drawsStrokes = false;  ///< for the direction field: edits Groom::strokes only
     bool paintsGroups = false;  ///< paints the number of a group, BrushSettings::value * 255, into the group map
     float spacing = 0.1f;       ///< from step to step, in radii; never less than one pixel
     std::unique_ptr<Brush> (*make)() = nullptr;

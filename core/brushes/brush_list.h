@@ -16,6 +16,12 @@ std::unique_ptr<Brush> makePuff();
 std::unique_ptr<Brush> makePlace();
 std::unique_ptr<Brush> makeDelete();
 std::unique_ptr<Brush> makeParting();
+std::unique_ptr<Brush> makeSketch();
+std::unique_ptr<Brush> makeAttract();
+std::unique_ptr<Brush> makeRepel();
+std::unique_ptr<Brush> makeWhorl();
+std::unique_ptr<Brush> makeMoveStroke();
+std::unique_ptr<Brush> makeAlignStrokes();
 std::unique_ptr<Brush> makePaint();
 std::unique_ptr<Brush> makeGroup();
 

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/brushes/brush_index.h"
 #include "core/brushes/brush_list.h"
-#include "core/surface/parting_line.h"
-
-#include <glm/geometric.hpp>
+#include "core/brushes/drawn_line.h"
 
 #include <algorithm>
 
 namespace whorl {
 namespace {
-
-constexpr std::size_t mostPlaces = 2000;
 
 /// Draws one parting along the stroke; with Ctrl it erases the partings that it meets.
 class PartingBrush : public Brush {
@@ -31,13 +26,8 @@ class PartingBrush : public Brush {
     }
 
     void draw(BrushStep& step) {
-        // Steps off the skin are left out; the line goes on where the pointer comes back.
-        if (!step.hit || m_places.size() >= mostPlaces) return;
-        if (!m_places.empty() && glm::distance(m_places.back(), step.hit->position) < partingStep(step.surface) * 0.25f)
-            return;
-        m_places.push_back(step.hit->position);
-        if (m_places.size() < 2) return;
-        auto line = tracedParting(step.surface, steadied());
+        if (!m_line.add(step) || m_line.size() < 2) return;
+        auto line = m_line.traced(step.surface);
         if (!line) return;
         const std::vector<Parting>& partings = *step.groom.partings;
         const auto own = std::ranges::find(partings, m_id, &Parting::id);
@@ -54,36 +44,14 @@ class PartingBrush : public Brush {
         step.changed = true;
     }
 
-    // Without the shaking of the hand; both ends stay.
-    std::vector<glm::vec3> steadied() const {
-        std::vector<glm::vec3> places = m_places;
-        for (int pass = 0; pass < 2; ++pass) {
-            glm::vec3 before = places.front();
-            for (std::size_t i = 1; i + 1 < places.size(); ++i) {
-                const glm::vec3 here = places[i];
-                places[i] = (before + here * 2.0f + places[i + 1]) * 0.25f;
-                before = here;
-            }
-        }
-        return places;
-    }
-
-    static bool isUnder(const BrushStep& step, const Parting& parting) {
-        return std::ranges::any_of(parting.points, [&](const SurfacePoint& point) {
-            const auto pixel = step.view.pixelFromGroom(positionAt(step.surface.mesh(), point));
-            return pixel && glm::distance(*pixel, step.pixel) <= step.radiusPixels &&
-                   (!step.settings.frontOnly || rootFacesEye(step.surface, step.view, point));
-        });
-    }
-
     static void erase(BrushStep& step) {
-        const auto under = [&](const Parting& parting) { return isUnder(step, parting); };
+        const auto under = [&](const Parting& parting) { return pixelsTo(step, parting.points) <= step.radiusPixels; };
         if (std::ranges::none_of(*step.groom.partings, under)) return;
         std::erase_if(step.groom.partings.edit(), under);
         step.changed = true;
     }
 
-    std::vector<glm::vec3> m_places;
+    DrawnLine m_line;
     std::uint32_t m_id = 0;
 };
 

@@ -63,6 +63,12 @@ std::string groomFactsText(const Groom& groom) {
                             std::to_string(parting.points.size()) + " points, " + metres(partingLength(mesh, parting)) +
                             " m");
     }
+    for (const FieldStroke& stroke : *groom.strokes) {
+        const auto kind = std::string(strokeKindNames[static_cast<std::size_t>(stroke.kind)]);
+        line("stroke", std::to_string(stroke.id) + ", " + kind + ", " + std::to_string(stroke.points.size()) +
+                           " points, weight " + metres(stroke.weight) +
+                           (stroke.radius > 0.0f ? ", radius " + metres(stroke.radius) + " m" : ""));
+    }
     line("guides", std::to_string(groom.guides.count()));
     line("hairs", std::to_string(groom.counts->hairs));
     return text;
@@ -100,6 +106,14 @@ std::string groomFactsJson(const Groom& groom, const Problems& problems, const s
                                     {"name", parting.name},
                                     {"points", parting.points.size()},
                                     {"length", partingLength(mesh, parting)}});
+    }
+    json["strokes"] = Json::array();
+    for (const FieldStroke& stroke : *groom.strokes) {
+        json["strokes"].push_back({{"id", stroke.id},
+                                   {"kind", strokeKindNames[static_cast<std::size_t>(stroke.kind)]},
+                                   {"points", stroke.points.size()},
+                                   {"weight", stroke.weight},
+                                   {"radius", stroke.radius}});
     }
     json["guides"] = groom.guides.count();
     Json parameters = Json::object();

@@ -43,9 +43,11 @@ void replaceMapName(Groom& groom, std::string_view from, const std::string& to) 
             if (map == from) map = to;
         });
     };
-    CountParams counts = *groom.counts;
-    replaceIn(counts);
-    if (!(counts == *groom.counts)) groom.counts.edit() = counts;
+    Groom::eachBlock(groom, [&](const BlockInfo&, auto& block) {
+        auto copy = *block;
+        replaceIn(copy);
+        if (!(copy == *block)) block = {std::move(copy)};
+    });
     std::vector<Group> groups = *groom.groups;
     for (Group& group : groups) {
         HairParams::eachWithModifiers(group.params, [&](const BlockInfo&, auto& block) { replaceIn(block); });

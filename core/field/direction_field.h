@@ -27,6 +27,7 @@ namespace whorl {
 struct FieldSingularity {
     std::uint32_t triangle = 0;
     int index = 0;
+    bool operator==(const FieldSingularity&) const = default;
 };
 
 /// Directions at the vertices. Immutable; any thread may ask. Cheap to copy.

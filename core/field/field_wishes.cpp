@@ -73,7 +73,7 @@ void addAlong(const FieldMesh& field, const FieldStroke& stroke, std::vector<Fie
 
 void addAround(const FieldMesh& field, const FieldStroke& stroke, std::vector<FieldWish>& wishes) {
     if (!(stroke.radius > 0.0f)) return;
-    const bool whorl = stroke.kind == StrokeKind::Whorl;
+    const bool whorl = turns(stroke.kind);
     const std::span<const SurfacePoint> points(stroke.points);
     const auto radius = static_cast<double>(stroke.radius);
     for (const WayToLine& way : waysToLine(field, whorl ? points.first(1) : points, stroke.radius)) {
@@ -83,8 +83,10 @@ void addAround(const FieldMesh& field, const FieldStroke& stroke, std::vector<Fi
         FieldWish wish;
         wish.unknowns[0] = way.unknown;
         wish.shares[0] = 1.0;
-        // Away from the point, and from there a quarter turn to the left.
-        wish.wanted = whorl ? -toLine * Complex(0.0, 1.0) : stroke.kind == StrokeKind::Repel ? -toLine : toLine;
+        // Away from the point, and from there a quarter turn to the left; clockwise to the right.
+        wish.wanted = whorl ? -toLine * Complex(0.0, stroke.kind == StrokeKind::Whorl ? 1.0 : -1.0)
+                      : stroke.kind == StrokeKind::Repel ? -toLine
+                                                         : toLine;
         const double inside = 1.0 - distance * distance / (radius * radius);
         wish.weight = areaStrength * static_cast<double>(stroke.weight) * field.areas[way.unknown] / (radius * radius) *
                       inside * inside;

@@ -32,7 +32,8 @@ Result<OpenedDocument> decoded(std::span<const std::uint8_t> bytes, const std::s
     auto manifest = parseJson(*text, name);
     if (!manifest) return manifest.error();
     Problems problems;
-    reportUnknownKeys(*manifest, {"mesh", "guides", "maps", "groups", "counts", "partings"}, "document", problems);
+    reportUnknownKeys(*manifest, {"mesh", "guides", "maps", "groups", "counts", "partings", "strokes", "field", "lic"},
+                      "document", problems);
     auto opened = decodeGroom(*container, *manifest, name, progress);
     if (!opened) return opened;
     opened->problems.insert(opened->problems.begin(), problems.begin(), problems.end());

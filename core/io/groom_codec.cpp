@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/groom_codec.h"
 
+#include "core/io/codec_pieces.h"
 #include "core/io/groom_repair.h"
 #include "core/io/json_text.h"
+#include "core/io/line_codec.h"
 #include "core/io/map_codec.h"
 #include "core/param/json.h"
-
-#include <cstring>
 
 namespace whorl {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 using nlohmann::json;
 
 static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(glm::vec2) == 8, "stored as they are");
-static_assert(sizeof(SurfacePoint) == 12, "stored as it is");
 
 /// A part without its texts.
 struct StoredPart {
@@ -23,30 +22,6 @@ struct StoredPart {
     glm::vec3 baseColour;
 };
 static_assert(sizeof(StoredPart) == 20, "stored as it is");
-
-template <class T>
-std::vector<std::uint8_t> bytesOf(const std::vector<T>& values) {
-    const auto* from = reinterpret_cast<const std::uint8_t*>(values.data());
-    return {from, from + values.size() * sizeof(T)};
-}
-
-void appendText(std::vector<std::uint8_t>& bytes, const std::string& text) {
-    const auto size = static_cast<std::uint32_t>(text.size());
-    const auto* from = reinterpret_cast<const std::uint8_t*>(&size);
-    bytes.insert(bytes.end(), from, from + sizeof size);
-    bytes.insert(bytes.end(), text.begin(), text.end());
-}
-
-bool takeText(std::span<const std::uint8_t>& bytes, std::string& text) {
-    std::uint32_t size = 0;
-    if (bytes.size() < sizeof size) return false;
-    std::memcpy(&size, bytes.data(), sizeof size);
-    bytes = bytes.subspan(sizeof size);
-    if (size > bytes.size()) return false;
-    text.assign(reinterpret_cast<const char*>(bytes.data()), size);
-    bytes = bytes.subspan(size);
-    return true;
-}
 
 json encodeMesh(const SurfaceMesh& mesh, const std::vector<PartSettings>& settings, ContainerWriter& writer) {
     std::vector<StoredPart> parts;
@@ -88,38 +63,6 @@ json encodeGuides(const GuideSet& guides, ContainerWriter& writer) {
             {"points", blobToJson(writer.addOwned(bytesOf(stored.points)))}};
 }
 
-json encodePartings(const std::vector<Parting>& partings, ContainerWriter& writer) {
-    StoredPartings stored;
-    for (const Parting& parting : partings) {
-        stored.ids.push_back(parting.id);
-        stored.sizes.push_back(static_cast<std::uint32_t>(parting.points.size()));
-        stored.points.insert(stored.points.end(), parting.points.begin(), parting.points.end());
-        appendText(stored.names, parting.name);
-    }
-    return {{"ids", blobToJson(writer.addOwned(bytesOf(stored.ids)))},
-            {"sizes", blobToJson(writer.addOwned(bytesOf(stored.sizes)))},
-            {"points", blobToJson(writer.addOwned(bytesOf(stored.points)))},
-            {"names", blobToJson(writer.addOwned(std::move(stored.names)))}};
-}
-
-/// Collects what is to be inflated, each into memory of the right size.
-struct Wanted {
-    Container& container;
-    std::string& fault;
-    std::vector<Container::Request> requests{};
-
-    template <class T>
-    void array(const Blob& blob, std::vector<T>& values) {
-        if (!fault.empty()) return;
-        if (blob.bytes % sizeof(T) != 0 || !container.claim(blob, blob.bytes)) {
-            fault = "a piece that its table of contents names is not there.";
-            return;
-        }
-        values.resize(static_cast<std::size_t>(blob.bytes / sizeof(T)));
-        requests.push_back({blob, reinterpret_cast<std::uint8_t*>(values.data())});
-    }
-};
-
 struct StoredMesh {
     SurfaceMesh mesh;
     std::vector<StoredPart> parts;
@@ -155,33 +98,6 @@ void readGuides(ManifestReader reader, Wanted& wanted, StoredGuides& stored) {
         wanted.fault = "the arrays of its guides do not fit together.";
 }
 
-void readPartings(ManifestReader reader, Wanted& wanted, StoredPartings& stored) {
-    wanted.array(reader.blob("ids"), stored.ids);
-    wanted.array(reader.blob("sizes"), stored.sizes);
-    wanted.array(reader.blob("points"), stored.points);
-    wanted.array(reader.blob("names"), stored.names);
-    if (wanted.fault.empty() && stored.sizes.size() != stored.ids.size())
-        wanted.fault = "the arrays of its partings do not fit together.";
-}
-
-Result<std::vector<Parting>> finishPartings(const StoredPartings& stored) {
-    std::vector<Parting> partings;
-    std::span<const std::uint8_t> names = stored.names;
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < stored.ids.size(); ++i) {
-        Parting parting{stored.ids[i], {}, {}};
-        if (!takeText(names, parting.name)) return Error{"the names of its partings are cut short."};
-        if (stored.sizes[i] > stored.points.size() - at)
-            return Error{"the points of its partings do not fit together."};
-        const auto first = stored.points.begin() + static_cast<std::ptrdiff_t>(at);
-        parting.points.assign(first, first + static_cast<std::ptrdiff_t>(stored.sizes[i]));
-        at += stored.sizes[i];
-        partings.push_back(std::move(parting));
-    }
-    if (at != stored.points.size()) return Error{"the points of its partings do not fit together."};
-    return partings;
-}
-
 Result<void> finishMesh(StoredMesh& stored, Groom& groom, Problems& problems) {
     std::span<const std::uint8_t> texts = stored.texts;
     for (const StoredPart& part : stored.parts) {
@@ -201,6 +117,11 @@ Result<void> finishMesh(StoredMesh& stored, Groom& groom, Problems& problems) {
     groom.mesh = Cow<SurfaceMesh>(std::move(stored.mesh));
     groom.partSettings = Cow<std::vector<PartSettings>>(std::move(settings));
     return {};
+}
+
+template <class Block>
+json paramsToJson(Block block) {
+    return blockToJson(paramsOf(block));
 }
 
 /// Groups and counts: all that needs no pieces.
@@ -240,6 +161,9 @@ json encodeGroom(const Groom& groom, ContainerWriter& writer) {
                   {"counts", countsToJson(*groom.counts)}};
     // Left out when there are none, so that such documents stay the same, byte for byte.
     if (!groom.partings->empty()) manifest["partings"] = encodePartings(*groom.partings, writer);
+    if (!groom.strokes->empty()) manifest["strokes"] = encodeStrokes(*groom.strokes, writer);
+    if (*groom.field != fieldParamsFor(*groom.mesh)) manifest["field"] = paramsToJson(*groom.field);
+    if (*groom.lic != licParamsFor(*groom.mesh)) manifest["lic"] = paramsToJson(*groom.lic);
     return manifest;
 }
 
@@ -264,13 +188,14 @@ Result<OpenedDocument> decodeGroom(Container& container, const json& manifest, c
         reportUnknownKeys(*object, {"next_id", "ids", "roots", "groups", "sizes", "points"}, "guides", problems);
         readGuides({*object, "its guides", fault}, wanted, guides);
     }
-    StoredPartings partings;
-    if (manifest.contains("partings") && manifest.is_object()) {
-        if (const json* object = reader.object("partings")) {
-            reportUnknownKeys(*object, {"ids", "sizes", "points", "names"}, "partings", problems);
-            readPartings({*object, "its partings", fault}, wanted, partings);
-        }
-    }
+    LineDecoder lines;
+    const auto optional = [&](const char* key) {
+        return manifest.is_object() && manifest.contains(key) ? reader.object(key) : nullptr;
+    };
+    if (const json* object = optional("partings")) lines.readPartings(*object, wanted, problems);
+    if (const json* object = optional("strokes")) lines.readStrokes(*object, wanted, problems);
+    const json* const field = optional("field");
+    const json* const lic = optional("lic");
     MapDecoder maps(container, fault);
     if (const json* list = reader.array("maps")) maps.read(*list, problems, wanted.requests);
     if (auto done = readParameters(manifest, opened.groom, problems, fault); !done) return broken(done.error().message);
@@ -285,10 +210,10 @@ Result<OpenedDocument> decodeGroom(Container& container, const json& manifest, c
     if (points != guides.points.size()) return broken("the points of its guides do not fit together.");
     if (auto done = finishMesh(mesh, opened.groom, problems); !done) return broken(done.error().message);
     opened.groom.guides = repairedGuides(guides, *opened.groom.mesh, *opened.groom.groups, problems);
-    auto lines = finishPartings(partings);
-    if (!lines) return broken(lines.error().message);
-    repairPartings(*lines, *opened.groom.mesh, problems);
-    if (!lines->empty()) opened.groom.partings = Cow<std::vector<Parting>>(std::move(*lines));
+    opened.groom.setDefaults();
+    if (field) blockFromJson(paramsOf(opened.groom.field.edit()), *field, "field", problems);
+    if (lic) blockFromJson(paramsOf(opened.groom.lic.edit()), *lic, "lic", problems);
+    if (auto done = lines.finish(opened.groom, problems); !done) return broken(done.error().message);
     if (auto done = maps.finish(opened.groom.maps, problems); !done) return broken(done.error().message);
     if (progress.cancelled()) return cancelledError();
     return opened;

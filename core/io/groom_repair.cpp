@@ -15,7 +15,7 @@ bool finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-void say(Problems& problems, std::size_t count, const char* what) {
+void say(Problems& problems, std::size_t count, const std::string& what) {
     if (count > 0) problems.push_back(std::to_string(count) + " " + what);
 }
 
@@ -157,37 +157,64 @@ GuideSet repairedGuides(const StoredGuides& stored, const SurfaceMesh& mesh, con
     return guides;
 }
 
-void repairPartings(std::vector<Parting>& partings, const SurfaceMesh& mesh, Problems& problems) {
+namespace {
+
+/// Leaves out what can not be on the mesh; `fewest` points a line, `most` lines.
+template <class Line>
+void repairLines(std::vector<Line>& lines, const SurfaceMesh& mesh, const std::string& what, std::size_t most,
+                 std::size_t (*fewest)(const Line&), Problems& problems) {
     std::size_t moved = 0, lostPoints = 0, lost = 0, renumbered = 0;
     std::set<std::uint32_t> given, ids;
-    for (const Parting& parting : partings) given.insert(parting.id);
+    for (const Line& line : lines) given.insert(line.id);
     std::uint32_t fresh = 1;
-    std::vector<Parting> kept;
-    for (Parting& parting : partings) {
-        lostPoints += std::erase_if(parting.points,
+    std::vector<Line> kept;
+    for (Line& line : lines) {
+        lostPoints += std::erase_if(line.points,
                                     [&](const SurfacePoint& point) { return point.triangle >= mesh.triangleCount(); });
-        for (SurfacePoint& point : parting.points) moved += repairRoot(point);
-        if (parting.points.size() > Parting::maxPoints) {
-            lostPoints += parting.points.size() - Parting::maxPoints;
-            parting.points.resize(Parting::maxPoints);
+        for (SurfacePoint& point : line.points) moved += repairRoot(point);
+        if (line.points.size() > Line::maxPoints) {
+            lostPoints += line.points.size() - Line::maxPoints;
+            line.points.resize(Line::maxPoints);
         }
-        if (parting.points.size() < 2 || kept.size() == Parting::maxPartings) {
+        if (line.points.size() < fewest(line) || kept.size() == most) {
             ++lost;
             continue;
         }
-        if (parting.id == 0 || !ids.insert(parting.id).second) {
+        if (line.id == 0 || !ids.insert(line.id).second) {
             while (given.contains(fresh)) ++fresh;
-            parting.id = fresh++;
-            ids.insert(parting.id);
+            line.id = fresh++;
+            ids.insert(line.id);
             ++renumbered;
         }
-        kept.push_back(std::move(parting));
+        kept.push_back(std::move(line));
     }
-    partings = std::move(kept);
-    say(problems, moved, "points of partings lay outside their triangles; they were moved onto them.");
-    say(problems, lostPoints, "points of partings did not lie on the mesh or were too many; they are left out.");
-    say(problems, lost, "partings had fewer than two points or were too many; they are left out.");
-    say(problems, renumbered, "partings shared their number with another; they have new ones.");
+    lines = std::move(kept);
+    say(problems, moved, "points of " + what + " lay outside their triangles; they were moved onto them.");
+    say(problems, lostPoints, "points of " + what + " did not lie on the mesh or were too many; they are left out.");
+    say(problems, lost, what + " had too few points or were too many; they are left out.");
+    say(problems, renumbered, what + " shared their number with another; they have new ones.");
+}
+
+}  // namespace
+
+void repairPartings(std::vector<Parting>& partings, const SurfaceMesh& mesh, Problems& problems) {
+    repairLines<Parting>(
+        partings, mesh, "partings", Parting::maxPartings, [](const Parting&) { return std::size_t{2}; }, problems);
+}
+
+void repairStrokes(std::vector<FieldStroke>& strokes, const SurfaceMesh& mesh, Problems& problems) {
+    std::size_t wrong = 0;
+    for (FieldStroke& stroke : strokes) {
+        const FieldStroke was = stroke;
+        if (static_cast<std::size_t>(stroke.kind) >= strokeKindNames.size()) stroke.kind = StrokeKind::Along;
+        stroke.weight = std::isfinite(stroke.weight) ? FieldStroke::weightInRange(stroke.weight) : 1.0f;
+        stroke.radius = std::isfinite(stroke.radius) ? std::clamp(stroke.radius, 0.0f, FieldStroke::maxRadius) : 0.0f;
+        wrong += stroke.kind != was.kind || stroke.weight != was.weight || stroke.radius != was.radius;
+    }
+    say(problems, wrong, "strokes had a kind, weight or radius that none can have; it was changed.");
+    repairLines<FieldStroke>(
+        strokes, mesh, "strokes", FieldStroke::maxStrokes,
+        [](const FieldStroke& stroke) { return stroke.fewestPoints(); }, problems);
 }
 
 }  // namespace whorl

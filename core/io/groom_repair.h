@@ -17,14 +17,6 @@ struct StoredGuides {
     std::uint32_t nextId = 1;
 };
 
-/// Partings as a file holds them.
-struct StoredPartings {
-    std::vector<std::uint32_t> ids;
-    std::vector<std::uint32_t> sizes;  ///< points of each parting
-    std::vector<SurfacePoint> points;
-    std::vector<std::uint8_t> names;  ///< 32-bit length and bytes each
-};
-
 /// Refuses indices outside and vertices that are not finite; repairs normals, UVs and parts.
 Result<void> repairMesh(SurfaceMesh& mesh, std::vector<PartSettings>& settings, Problems& problems);
 
@@ -39,5 +31,8 @@ GuideSet repairedGuides(const StoredGuides& stored, const SurfaceMesh& mesh, con
 /// Leaves out points that are not on the mesh, partings that then have none to join, and those above the most; puts
 /// repeated ids right.
 void repairPartings(std::vector<Parting>& partings, const SurfaceMesh& mesh, Problems& problems);
+
+/// The same for strokes, whose kinds, weights and radii come into their ranges, too.
+void repairStrokes(std::vector<FieldStroke>& strokes, const SurfaceMesh& mesh, Problems& problems);
 
 }  // namespace whorl

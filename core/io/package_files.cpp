@@ -103,7 +103,11 @@ Result<std::uint64_t> writePackageFile(const std::filesystem::path& folder, cons
 
 Result<std::vector<std::uint8_t>> sharedBytes(const Groom& groom, json& parameters, Progress& progress) {
     ContainerWriter writer;
-    json manifest = encodeGroom(groom, writer);
+    // A renderer makes hair from guides: what only led to them stays at home.
+    Groom shared = groom;
+    shared.strokes = {};
+    shared.setDefaults();
+    json manifest = encodeGroom(shared, writer);
     for (const char* key : {"groups", "counts"}) {
         parameters[key] = std::move(manifest[key]);
         manifest.erase(key);

@@ -90,6 +90,12 @@ Result<bool> LiveTexture::updateField(const Groom& groom, const std::shared_ptr<
     return true;
 }
 
+Result<DirectionField> LiveTexture::field(const Groom& groom, const std::shared_ptr<const Surface>& surface,
+                                          Progress& progress) {
+    if (auto made = updateField(groom, surface, progress); !made) return made.error();
+    return m_field;
+}
+
 Result<std::shared_ptr<const LicTexture>> LiveTexture::update(const Groom& groom,
                                                               std::shared_ptr<const Surface> surface, int size,
                                                               Progress& progress) {

@@ -19,6 +19,8 @@ public:
     /// to LicPainter::maxSize. The same object as before when nothing differs. Fails only when cancelled.
     Result<std::shared_ptr<const LicTexture>> update(const Groom& groom, std::shared_ptr<const Surface> surface,
                                                      int size, Progress& progress);
+    /// The groom's field alone.
+    Result<DirectionField> field(const Groom& groom, const std::shared_ptr<const Surface>& surface, Progress& progress);
     /// True when the textures of two grooms can differ.
     static bool differs(const Groom& a, const Groom& b);
 

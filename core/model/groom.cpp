@@ -81,24 +81,47 @@ void checkGuides(const Groom& groom, Problems& problems) {
     say(badPoints, " guide points are not finite numbers.");
 }
 
-void checkPartings(const Groom& groom, Problems& problems) {
+/// What partings and strokes have in common; `name` with a capital.
+template <class Line>
+void checkLines(const Groom& groom, const std::vector<Line>& lines, const std::string& name, std::size_t most,
+                std::size_t (*fewest)(const Line&), Problems& problems) {
     const std::uint32_t triangles = groom.mesh->triangleCount();
-    if (groom.partings->size() > Parting::maxPartings) {
-        problems.push_back("A groom has at most " + std::to_string(Parting::maxPartings) + " partings; this one has " +
-                           std::to_string(groom.partings->size()) + ".");
+    if (lines.size() > most) {
+        problems.push_back("A groom has at most " + std::to_string(most) + " of this kind: " + name +
+                           "; this one has " + std::to_string(lines.size()) + ".");
     }
     std::set<std::uint32_t> ids;
-    for (const Parting& parting : *groom.partings) {
-        const std::string name = "Parting " + std::to_string(parting.id);
-        if (parting.id == 0 || !ids.insert(parting.id).second)
-            problems.push_back(name + " shares its number with another, or has none.");
-        if (parting.points.size() < 2 || parting.points.size() > Parting::maxPoints)
-            problems.push_back(name + " has " + std::to_string(parting.points.size()) + " points; 2 to " +
-                               std::to_string(Parting::maxPoints) + " are right.");
-        const bool on = std::all_of(parting.points.begin(), parting.points.end(), [&](const SurfacePoint& point) {
+    for (const Line& line : lines) {
+        const std::string which = name + " " + std::to_string(line.id);
+        if (line.id == 0 || !ids.insert(line.id).second)
+            problems.push_back(which + " shares its number with another, or has none.");
+        if (line.points.size() < fewest(line) || line.points.size() > Line::maxPoints)
+            problems.push_back(which + " has " + std::to_string(line.points.size()) + " points; " +
+                               std::to_string(fewest(line)) + " to " + std::to_string(Line::maxPoints) + " are right.");
+        const bool on = std::all_of(line.points.begin(), line.points.end(), [&](const SurfacePoint& point) {
             return point.triangle < triangles && standsOn(point);
         });
-        if (!on) problems.push_back(name + " does not lie on the mesh.");
+        if (!on) problems.push_back(which + " does not lie on the mesh.");
+    }
+}
+
+void checkPartings(const Groom& groom, Problems& problems) {
+    checkLines<Parting>(
+        groom, *groom.partings, "Parting", Parting::maxPartings, [](const Parting&) { return std::size_t{2}; },
+        problems);
+}
+
+void checkStrokes(const Groom& groom, Problems& problems) {
+    checkLines<FieldStroke>(
+        groom, *groom.strokes, "Stroke", FieldStroke::maxStrokes,
+        [](const FieldStroke& stroke) { return stroke.fewestPoints(); }, problems);
+    for (const FieldStroke& stroke : *groom.strokes) {
+        const bool right = static_cast<std::size_t>(stroke.kind) < strokeKindNames.size() &&
+                           stroke.weight >= FieldStroke::minWeight && stroke.weight <= FieldStroke::maxWeight &&
+                           stroke.radius >= 0.0f && stroke.radius <= FieldStroke::maxRadius;
+        if (!right)
+            problems.push_back("Stroke " + std::to_string(stroke.id) +
+                               " has a kind, weight or radius that none can have.");
     }
 }
 
@@ -131,7 +154,13 @@ void checkGroups(const Groom& groom, Problems& problems) {
             }
         });
     }
-    checkMap("counts/group_map", groom.counts->groupMap.name);
+    Groom::eachBlock(groom, [&](const BlockInfo& block, const auto& values) {
+        auto copy = *values;
+        for (const ParamRef& ref : paramsOf(copy)) {
+            if (const std::string* map = paramMap(ref))
+                checkMap(std::string(block.id) + "/" + std::string(ref.info.id), *map);
+        }
+    });
     for (const MeshPart& part : groom.mesh->parts) checkMap("The texture of part " + part.name, part.texture);
 }
 
@@ -205,6 +234,23 @@ float lengthScale(const SurfaceMesh& mesh) {
     return size > 0.0f && (size < 0.1f || size > 0.6f) ? size / 0.35f : 1.0f;
 }
 
+FieldParams fieldParamsFor(const SurfaceMesh& mesh) {
+    FieldParams params;
+    if (const float factor = lengthScale(mesh); factor != 1.0f) scaleLengths(paramsOf(params), factor);
+    return params;
+}
+
+LicParams licParamsFor(const SurfaceMesh& mesh) {
+    LicParams params;
+    if (const float factor = lengthScale(mesh); factor != 1.0f) scaleLengths(paramsOf(params), factor);
+    return params;
+}
+
+void Groom::setDefaults() {
+    if (const FieldParams params = fieldParamsFor(*mesh); *field != params) field = Cow<FieldParams>(params);
+    if (const LicParams params = licParamsFor(*mesh); *lic != params) lic = Cow<LicParams>(params);
+}
+
 Groom makeGroom(SurfaceMesh mesh) {
     Groom groom;
     if (const float factor = lengthScale(mesh); factor != 1.0f) {
@@ -213,6 +259,7 @@ Groom makeGroom(SurfaceMesh mesh) {
     }
     groom.partSettings = Cow<std::vector<PartSettings>>(std::vector<PartSettings>(mesh.parts.size()));
     groom.mesh = Cow<SurfaceMesh>(std::move(mesh));
+    groom.setDefaults();
     return groom;
 }
 
@@ -226,6 +273,7 @@ Problems checkGroom(const Groom& groom) {
     checkGroups(groom, problems);
     checkGuides(groom, problems);
     checkPartings(groom, problems);
+    checkStrokes(groom, problems);
     return problems;
 }
 

@@ -41,6 +41,16 @@ struct Groom {
     Cow<FieldParams> field;
     Cow<LicParams> lic;
 
+    /// The blocks of the whole groom: calls visit(BlockInfo, Cow of the block).
+    template <class Self, class Visit>
+    static void eachBlock(Self& self, Visit&& visit) {
+        visit(BlockInfo{"counts", "Counts", "How many of everything, for the whole groom."}, self.counts);
+        visit(BlockInfo{"field", "Field", "Which way hair lies on the skin, spread from strokes, and guides along it."},
+              self.field);
+        visit(BlockInfo{"lic", "Hair texture", "Hair painted on the skin along the field: short coats and undercoats."},
+              self.lic);
+    }
+
     /// True when every part is shared with `other`: nothing can differ.
     bool sameAs(const Groom& other) const;
     /// Memory that keeping this beside `before` costs.
@@ -52,12 +62,18 @@ struct Groom {
     void countAnew();
     /// That many hairs, as the density of today has them.
     void setHairs(std::uint32_t hairs);
+    /// Field and hair texture with the defaults of the mesh.
+    void setDefaults();
 };
 
 /// A new groom on `mesh`: all parts grow hair, one group named "hair", no guides. Thicknesses and noise fit a head of a
 /// third of a metre; for larger and smaller meshes they are scaled, because many files are in decimetres or centimetres
 /// and hair of a tenth of a millimetre would not be seen on them.
 Groom makeGroom(SurfaceMesh mesh);
+
+/// Defaults for `mesh`, whose size their lengths follow as those of makeGroom do.
+FieldParams fieldParamsFor(const SurfaceMesh& mesh);
+LicParams licParamsFor(const SurfaceMesh& mesh);
 
 /// What default lengths are multiplied by on `mesh`: 1 for a mesh from 0.1 to 0.6 m, else its size over 0.35 m.
 float lengthScale(const SurfaceMesh& mesh);

@@ -28,7 +28,7 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-/// A path taken apart: `group` is -1 for counts; `block` is "modifiers/NAME" for a modifier.
+/// A path taken apart: `group` is -1 for blocks of the whole groom; `block` is "modifiers/NAME" for a modifier.
 struct Place {
     int group = -1;
     std::string block;
@@ -43,12 +43,20 @@ Result<Place> parsePath(const Groom& groom, std::string_view path) {
         place.map = true;
         words.pop_back();
     }
-    if (words[0] == "counts" && words.size() == 2) {
+    std::string begins;
+    bool ofGroom = false;
+    Groom::eachBlock(groom, [&](const BlockInfo& info, const auto&) {
+        begins += std::string(info.id) + "/, ";
+        ofGroom = ofGroom || words[0] == info.id;
+    });
+    if (ofGroom && words.size() == 2) {
+        place.block = std::string(words[0]);
         place.param = words[1];
         return place;
     }
-    if (words[0] != "groups" && words[0] != "counts") {
-        return Error{"\"" + std::string(path) + "\": paths begin with counts/ or groups/."};
+    if (words[0] != "groups" && !ofGroom) {
+        begins.resize(begins.size() - 2);
+        return Error{"\"" + std::string(path) + "\": paths begin with " + begins + " or groups/."};
     }
     const bool modifier = words.size() > 2 && words[2] == "modifiers";
     if (words[0] != "groups" || words.size() != (modifier ? 5u : 4u)) {
@@ -68,31 +76,28 @@ Result<Place> parsePath(const Groom& groom, std::string_view path) {
     return place;
 }
 
-/// Calls `use` with the ParamRef at `place` of a groom's parameters.
+/// Calls `use` with that of `refs`, the parameters of `parent`, which `place` names.
 template <class Use>
-Result<void> withParam(CountParams& counts, HairParams* hair, const Place& place, std::string_view path, Use&& use) {
-    std::vector<ParamRef> refs;
-    std::string parent = "counts";
-    if (hair) {
-        std::vector<std::string> blocks;
-        HairParams::eachWithModifiers(*hair, [&](const BlockInfo& info, auto& block) {
-            blocks.emplace_back(info.id);
-            if (info.id == place.block) refs = paramsOf(block);
-        });
-        parent = std::string(path.substr(0, path.find('/', path.find('/') + 1)));
-        if (refs.empty()) {
-            return Error{parent + " has no block " + std::string(place.block) + "; blocks are " + listed(blocks) + "."};
-        }
-        parent += "/" + std::string(place.block);
-    } else {
-        refs = paramsOf(counts);
-    }
+Result<void> withParam(std::span<const ParamRef> refs, const std::string& parent, const Place& place, Use&& use) {
     std::vector<std::string> names;
     for (const ParamRef& ref : refs) {
         if (ref.info.id == place.param) return use(ref);
         names.emplace_back(ref.info.id);
     }
     return Error{parent + " has no parameter " + std::string(place.param) + "; parameters are " + listed(names) + "."};
+}
+
+template <class Use>
+Result<void> withParam(HairParams& hair, const Place& place, std::string_view path, Use&& use) {
+    std::vector<ParamRef> refs;
+    std::vector<std::string> blocks;
+    HairParams::eachWithModifiers(hair, [&](const BlockInfo& info, auto& block) {
+        blocks.emplace_back(info.id);
+        if (info.id == place.block) refs = paramsOf(block);
+    });
+    const auto parent = std::string(path.substr(0, path.find('/', path.find('/') + 1)));
+    if (refs.empty()) return Error{parent + " has no block " + place.block + "; blocks are " + listed(blocks) + "."};
+    return withParam(refs, parent + "/" + place.block, place, use);
 }
 
 Result<void> setMapName(const Groom& groom, const ParamRef& ref, const ParamValue& value) {
@@ -124,21 +129,28 @@ void resampleGuides(Groom& groom, int group) {
 Result<ParamValue> groomValue(const Groom& groom, std::string_view path) {
     const auto place = parsePath(groom, path);
     if (!place) return place.error();
-    CountParams counts = *groom.counts;
-    HairParams hair;
-    if (place->group >= 0) hair = (*groom.groups)[static_cast<std::size_t>(place->group)].params;
     ParamValue value;
-    const auto found =
-        withParam(counts, place->group >= 0 ? &hair : nullptr, *place, path, [&](const ParamRef& ref) -> Result<void> {
-            if (!place->map) {
-                value = paramValue(ref);
-            } else if (const std::string* map = paramMap(ref)) {
-                value = *map;
-            } else {
-                return Error{std::string(ref.info.id) + " is not driven by a map."};
-            }
-            return {};
+    const auto take = [&](const ParamRef& ref) -> Result<void> {
+        if (!place->map) {
+            value = paramValue(ref);
+        } else if (const std::string* map = paramMap(ref)) {
+            value = *map;
+        } else {
+            return Error{std::string(ref.info.id) + " is not driven by a map."};
+        }
+        return {};
+    };
+    Result<void> found;
+    if (place->group >= 0) {
+        HairParams hair = (*groom.groups)[static_cast<std::size_t>(place->group)].params;
+        found = withParam(hair, *place, path, take);
+    } else {
+        Groom::eachBlock(groom, [&](const BlockInfo& info, const auto& block) {
+            if (info.id != place->block) return;
+            auto copy = *block;
+            found = withParam(paramsOf(copy), place->block, *place, take);
         });
+    }
     if (!found) return found.error();
     return value;
 }
@@ -146,23 +158,27 @@ Result<ParamValue> groomValue(const Groom& groom, std::string_view path) {
 Result<void> setGroomValue(Groom& groom, std::string_view path, const ParamValue& value) {
     const auto place = parsePath(groom, path);
     if (!place) return place.error();
-    // On copies first: a refused value must not unshare anything.
-    CountParams counts = *groom.counts;
-    HairParams hair;
-    if (place->group >= 0) hair = (*groom.groups)[static_cast<std::size_t>(place->group)].params;
-    const auto set = withParam(counts, place->group >= 0 ? &hair : nullptr, *place, path, [&](const ParamRef& ref) {
+    const auto set = [&](const ParamRef& ref) {
         const bool name = place->map || std::holds_alternative<MapName*>(ref.target);
         return name ? setMapName(groom, ref, value) : setParamValue(ref, value);
-    });
-    if (!set) return set;
+    };
+    // On copies first: a refused value must not unshare anything.
     if (place->group < 0) {
-        if (counts == *groom.counts) return {};
-        const bool recount = counts.hairs != groom.counts->hairs || counts.groupMap != groom.counts->groupMap;
-        groom.counts = Cow<CountParams>(std::move(counts));
-        if (recount) groom.countAnew();
-        return {};
+        const Cow<CountParams> before = groom.counts;
+        Result<void> done;
+        Groom::eachBlock(groom, [&](const BlockInfo& info, auto& block) {
+            if (info.id != place->block) return;
+            auto copy = *block;
+            done = withParam(paramsOf(copy), place->block, *place, set);
+            if (done && !(copy == *block)) block = {std::move(copy)};
+        });
+        if (done && (before->hairs != groom.counts->hairs || before->groupMap != groom.counts->groupMap))
+            groom.countAnew();
+        return done;
     }
     const auto index = static_cast<std::size_t>(place->group);
+    HairParams hair = (*groom.groups)[index].params;
+    if (const auto done = withParam(hair, *place, path, set); !done) return done;
     if (hair == (*groom.groups)[index].params) return {};
     const bool resample = hair.general.segments != (*groom.groups)[index].params.general.segments;
     const bool recount = hair.general.density != (*groom.groups)[index].params.general.density;
@@ -174,8 +190,11 @@ Result<void> setGroomValue(Groom& groom, std::string_view path, const ParamValue
 
 std::vector<std::string> groomPaths(const Groom& groom) {
     std::vector<std::string> paths;
-    CountParams counts = *groom.counts;
-    for (const ParamRef& ref : paramsOf(counts)) paths.push_back("counts/" + std::string(ref.info.id));
+    Groom::eachBlock(groom, [&](const BlockInfo& info, const auto& block) {
+        auto copy = *block;
+        for (const ParamRef& ref : paramsOf(copy))
+            paths.push_back(std::string(info.id) + "/" + std::string(ref.info.id));
+    });
     for (const Group& group : *groom.groups) {
         HairParams params = group.params;
         HairParams::eachWithModifiers(params, [&](const BlockInfo& info, auto& block) {
@@ -232,8 +251,11 @@ std::string parameterReference() {
     std::ostringstream out;
     out << "# Parameters\n\nEvery number marked with a map is multiplied by that map's value at the root of each hair. "
            "`GROUP` stands for the name of a group; a new groom has one, `hair`.\n\n";
-    CountParams counts;
-    writeBlock(out, "counts/", "Counts", "How many of everything, for the whole groom.", paramsOf(counts));
+    const Groom groom;
+    Groom::eachBlock(groom, [&](const BlockInfo& info, const auto& block) {
+        auto copy = *block;
+        writeBlock(out, std::string(info.id) + "/", info.label, info.tip, paramsOf(copy));
+    });
     HairParams hair;
     HairParams::each(hair, [&](const BlockInfo& info, auto& block) {
         writeBlock(out, "groups/GROUP/" + std::string(info.id) + "/", info.label, info.tip, paramsOf(block));

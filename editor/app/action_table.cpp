@@ -75,6 +75,18 @@ void addGroom(std::vector<ActionInfo>& table) {
         {"groom.clear_guides", tr("&Remove All Guides"), "", tr("Removes every guide."), menu, A::Push, false, ""});
     table.push_back({"groom.clear_partings", tr("Remove All P&artings"), "", tr("Removes every parting."), menu,
                      A::Push, line, ""});
+    table.push_back(
+        {"groom.grow_along", tr("Grow Guides along S&trokes"), "Ctrl+L",
+         tr("Gives every guide a new shape along the direction that spreads from the strokes; places guides first "
+            "when there are none."),
+         menu, A::Push, false, "grow"});
+    table.push_back({"groom.strokes_from_guides", tr("Strokes &from Guides"), "",
+                     tr("Replaces the strokes by those that follow the guides as they lie."), menu, A::Push, false,
+                     ""});
+    table.push_back({"groom.remove_stroke", tr("Remove the Picked Stro&ke"), "Del",
+                     tr("Removes the stroke that was drawn, moved or clicked last."), menu, A::Push, false, ""});
+    table.push_back(
+        {"groom.clear_strokes", tr("Remove All Strok&es"), "", tr("Removes every stroke."), menu, A::Push, line, ""});
     table.push_back({"groom.paint_density", tr("Paint &Density"), "Ctrl+D",
                      tr("Makes a density map for the active group if it has none, and picks the paint brush."), menu,
                      A::Push, false, "paint"});

@@ -57,6 +57,12 @@ void EditorState::setGroup(int group) {
     Q_EMIT changed();
 }
 
+void EditorState::setPickedStroke(std::uint32_t id) {
+    if (id == m_pickedStroke) return;
+    m_pickedStroke = id;
+    Q_EMIT changed();
+}
+
 void EditorState::setNavigation(NavigationStyle style) {
     if (m_navigation == style) return;
     m_navigation = style;

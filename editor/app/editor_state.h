@@ -29,6 +29,9 @@ public:
     /// Number of the group that panels show and new guides get; may be past the end after an undo.
     int group() const { return m_group; }
     void setGroup(int group);
+    /// Id of the stroke that is picked; 0 for none, may be gone after an undo.
+    std::uint32_t pickedStroke() const { return m_pickedStroke; }
+    void setPickedStroke(std::uint32_t id);
     NavigationStyle navigation() const { return m_navigation; }
     void setNavigation(NavigationStyle style);
 
@@ -43,6 +46,7 @@ private:
     BrushOptions m_brushOptions;
     ViewOptions m_viewOptions;
     int m_group = 0;
+    std::uint32_t m_pickedStroke = 0;
     NavigationStyle m_navigation = NavigationStyle::Maya;
 };
 

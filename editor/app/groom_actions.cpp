@@ -3,7 +3,10 @@
 
 #include "core/commands/command.h"
 #include "core/commands/group_edits.h"
+#include "core/commands/strokes.h"
 #include "core/commands/vertex_guides.h"
+#include "core/field/groom_field.h"
+#include "core/field/grow_guides.h"
 #include "core/param/path.h"
 #include "editor/app/actions.h"
 #include "editor/app/document.h"
@@ -36,6 +39,10 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
     actions.on("groom.regroup_guides", this, [this] { regroupGuides(); });
     actions.on("groom.clear_guides", this, [this] { clearGuides(); });
     actions.on("groom.clear_partings", this, [this] { clearPartings(); });
+    actions.on("groom.grow_along", this, [this] { growAlong(); });
+    actions.on("groom.strokes_from_guides", this, [this] { strokesFromGuides(); });
+    actions.on("groom.remove_stroke", this, [this] { removeStroke(); });
+    actions.on("groom.clear_strokes", this, [this] { clearStrokes(); });
     actions.on("groom.paint_density", this, [this] { paintDensity(); });
     actions.on("groom.new_seed", this, [this] { newSeed(); });
     for (const BrushInfo& brush : brushes()) {
@@ -44,6 +51,7 @@ GroomActions::GroomActions(Document& document, EditorState& state, Actions& acti
                    [this, &brush] { choosePaintMap(m_document, m_state, brush, true); });
     }
     connect(&document, &Document::changed, this, &GroomActions::refresh);
+    connect(&state, &EditorState::changed, this, &GroomActions::refresh);
     connect(&document.history(), &QUndoStack::indexChanged, this, &GroomActions::refresh);
     refresh();
 }
@@ -59,6 +67,9 @@ void GroomActions::refresh() {
         if (needsGroom) m_actions.get(row.id).setEnabled(open);
     }
     m_actions.get("groom.clear_partings").setEnabled(!m_document.groom().partings->empty());
+    m_actions.get("groom.clear_strokes").setEnabled(!m_document.groom().strokes->empty());
+    m_actions.get("groom.remove_stroke").setEnabled(findStroke(m_document.groom(), m_state.pickedStroke()) != nullptr);
+    m_actions.get("groom.strokes_from_guides").setEnabled(!m_document.groom().guides.empty());
     m_actions.get("groom.regroup_guides").setEnabled(!m_document.groom().guides.empty());
     m_actions.get("groom.clear_guides").setEnabled(!m_document.groom().guides.empty());
     const auto name = [&](const char* id, const QString& verb, const QString& what) {
@@ -125,6 +136,53 @@ void GroomActions::clearPartings() {
     Groom after = m_document.committed();
     after.partings = {};
     m_document.edit(std::move(after), tr("Remove all partings"));
+}
+
+void GroomActions::growAlong() {
+    m_document.revert();
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    if (!surface) return;
+    Groom after = m_document.committed();
+    const auto guides = static_cast<std::size_t>(std::max(after.counts->guides, 0));
+    const Result<void> done =
+        runWithProgress<void>(&m_window, tr("Growing guides"), [&](Progress& progress) -> Result<void> {
+            if (after.guides.empty()) {
+                auto placed = whorl::placeGuides(after, *surface, guides, 0.0f, false, progress);
+                if (!placed) return placed;
+            }
+            const auto field = groomField(after, surface, progress);
+            if (!field) return field.error();
+            return growGuidesAlong(after, *surface, *field, whorl::growAlong(*after.field), progress);
+        });
+    if (done) {
+        m_document.edit(std::move(after), tr("Grow guides along strokes"));
+    } else if (!done.error().cancelled) {
+        m_messages.say(MessageBar::Kind::Warning, QString::fromStdString(done.error().message));
+    }
+}
+
+void GroomActions::strokesFromGuides() {
+    m_document.revert();
+    const std::shared_ptr<const Surface> surface = m_document.surface();
+    if (!surface) return;
+    Groom after = m_document.committed();
+    const Result<void> done = makeStrokesOfGuides(after, *surface, -1);
+    if (done) {
+        m_document.edit(std::move(after), tr("Strokes from guides"));
+    } else {
+        m_messages.say(MessageBar::Kind::Warning, QString::fromStdString(done.error().message));
+    }
+}
+
+void GroomActions::removeStroke() {
+    Groom after = m_document.committed();
+    if (whorl::removeStroke(after, m_state.pickedStroke())) m_document.edit(std::move(after), tr("Remove stroke"));
+}
+
+void GroomActions::clearStrokes() {
+    Groom after = m_document.committed();
+    after.strokes = {};
+    m_document.edit(std::move(after), tr("Remove all strokes"));
 }
 
 void GroomActions::paintDensity() {

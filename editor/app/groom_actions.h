@@ -28,6 +28,11 @@ public:
     void regroupGuides();
     void clearGuides();
     void clearPartings();
+    /// Guides of all groups along the groom's field; placed first when there are none.
+    void growAlong();
+    void strokesFromGuides();
+    void removeStroke();
+    void clearStrokes();
     /// Picks the paint brush with the density map of the active group; makes the map when there is none.
     void paintDensity();
     void newSeed();

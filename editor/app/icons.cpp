@@ -168,6 +168,57 @@ const QHash<QString, Draw>& drawings() {
                  l.cubicTo(17.5, y, 20, y + 2, 20.5, y + 5);
              }
          }},
+        {"sketch",
+         [](QPainterPath& l, QPainterPath&) {
+             l.moveTo(3, 19);
+             l.cubicTo(5, 9, 10, 16, 19, 6);
+             arrowHead(l, {20.5, 4.5}, 4, -4);
+         }},
+        {"attract",
+         [](QPainterPath& l, QPainterPath& f) {
+             f.addEllipse(QPointF(12, 12), 2.2, 2.2);
+             for (const double x : {-1.0, 1.0}) {
+                 polyline(l, {QPointF(12 + 9.5 * x, 12), QPointF(12 + 5 * x, 12)});
+                 arrowHead(l, {12 + 4.5 * x, 12}, -3 * x, 0);
+                 polyline(l, {QPointF(12, 12 + 9.5 * x), QPointF(12, 12 + 5 * x)});
+                 arrowHead(l, {12, 12 + 4.5 * x}, 0, -3 * x);
+             }
+         }},
+        {"repel",
+         [](QPainterPath& l, QPainterPath& f) {
+             f.addEllipse(QPointF(12, 12), 2.2, 2.2);
+             for (const double x : {-1.0, 1.0}) {
+                 polyline(l, {QPointF(12 + 4.5 * x, 12), QPointF(12 + 9 * x, 12)});
+                 arrowHead(l, {12 + 9.5 * x, 12}, 3 * x, 0);
+                 polyline(l, {QPointF(12, 12 + 4.5 * x), QPointF(12, 12 + 9 * x)});
+                 arrowHead(l, {12, 12 + 9.5 * x}, 0, 3 * x);
+             }
+         }},
+        {"whorl",
+         [](QPainterPath& l, QPainterPath&) {
+             l.moveTo(12, 12);
+             l.cubicTo(15, 8, 18, 14, 12.5, 16);
+             l.cubicTo(6, 18, 4, 8, 11, 6);
+             l.cubicTo(18, 4, 23, 12, 19, 19);
+         }},
+        {"move_stroke",
+         [](QPainterPath& l, QPainterPath&) {
+             l.moveTo(3, 14);
+             l.cubicTo(4, 7, 8, 11, 12, 4);
+             l.moveTo(9, 20);
+             l.cubicTo(10, 13, 14, 17, 18, 10);
+             polyline(l, {QPointF(13, 10), QPointF(19, 17)});
+             arrowHead(l, {20, 18.5}, 3, 3.5);
+         }},
+        {"align_strokes",
+         [](QPainterPath& l, QPainterPath&) {
+             for (int i = 0; i < 3; ++i) {
+                 const double y = 6 + 6 * i;
+                 l.moveTo(3, y);
+                 l.cubicTo(8, y - 3, 12, y + 3, 18, y);
+                 arrowHead(l, {20, y}, 3, 0);
+             }
+         }},
         {"mirror",
          [](QPainterPath& l, QPainterPath& f) {
              for (int i = 0; i < 4; ++i) polyline(l, {QPointF(12, 3 + 5 * i), QPointF(12, 5.5 + 5 * i)});

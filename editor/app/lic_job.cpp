@@ -14,24 +14,31 @@ void LicJob::request(const Groom& groom, std::shared_ptr<const Surface> surface,
     const std::uint64_t serial = ++m_requested;
     auto work = [this, serial, groom, surface = std::move(surface), size](Progress& progress) {
         const auto start = std::chrono::steady_clock::now();
-        std::shared_ptr<const LicTexture> texture;
+        Made made;
         if (surface) {
-            auto made = m_live.update(groom, surface, size, progress);
-            if (!made) return;  // cancelled: a newer request follows
-            texture = std::move(*made);
+            const auto field = m_live.field(groom, surface, progress);
+            if (!field) return;  // cancelled: a newer request follows
+            made.singularities = field->singularities();
+            if (size > 0) {
+                auto texture = m_live.update(groom, surface, size, progress);
+                if (!texture) return;
+                made.texture = std::move(*texture);
+            }
         }
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+        made.milliseconds = spent.count();
         QMetaObject::invokeMethod(
-            this, [=, this] { deliver(serial, texture, spent.count()); }, Qt::QueuedConnection);
+            this, [=, this] { deliver(serial, made); }, Qt::QueuedConnection);
     };
     m_job.submit(std::move(work), interactive ? LatestJob::Running::Finish : LatestJob::Running::Cancel);
 }
 
-void LicJob::deliver(std::uint64_t serial, std::shared_ptr<const LicTexture> texture, double milliseconds) {
+void LicJob::deliver(std::uint64_t serial, Made made) {
     if (serial <= m_delivered) return;
     m_delivered = serial;
-    m_milliseconds = milliseconds;
-    m_texture = std::move(texture);
+    m_milliseconds = made.milliseconds;
+    m_texture = std::move(made.texture);
+    m_singularities = std::move(made.singularities);
     Q_EMIT delivered();
 }
 

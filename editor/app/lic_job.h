@@ -18,11 +18,14 @@ public:
     explicit LicJob(QObject* parent = nullptr);
     ~LicJob() override;
 
-    /// `interactive`: the artist is dragging; a texture that is being painted is finished and shown before the newest.
+    /// `size`: texels a side; 0 for the field alone. `interactive`: the artist is dragging; a texture that is being
+    /// painted is finished and shown before the newest.
     void request(const Groom& groom, std::shared_ptr<const Surface> surface, int size, bool interactive);
     bool busy() const { return m_job.busy() || m_delivered != m_requested; }
     /// Null until the first result.
     std::shared_ptr<const LicTexture> texture() const { return m_texture; }
+    /// Where the field of the last result turns.
+    const std::vector<FieldSingularity>& singularities() const { return m_singularities; }
     /// Milliseconds of the last one, field and texture.
     double milliseconds() const { return m_milliseconds; }
 
@@ -30,10 +33,16 @@ Q_SIGNALS:
     void delivered();
 
 private:
-    void deliver(std::uint64_t serial, std::shared_ptr<const LicTexture> texture, double milliseconds);
+    struct Made {
+        std::shared_ptr<const LicTexture> texture;
+        std::vector<FieldSingularity> singularities;
+        double milliseconds = 0.0;
+    };
+    void deliver(std::uint64_t serial, Made made);
 
     LiveTexture m_live;  // used by the job's thread only
     std::shared_ptr<const LicTexture> m_texture;
+    std::vector<FieldSingularity> m_singularities;
     std::uint64_t m_requested = 0;
     std::uint64_t m_delivered = 0;
     double m_milliseconds = 0.0;

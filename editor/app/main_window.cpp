@@ -9,11 +9,13 @@
 #include "editor/app/groom_actions.h"
 #include "editor/app/icons.h"
 #include "editor/app/panels/explain_panel.h"
+#include "editor/app/panels/field_panel.h"
 #include "editor/app/panels/panels.h"
 #include "editor/app/resources.h"
 #include "editor/app/viewport/viewport.h"
 #include "editor/app/viewport/viewport_area.h"
 #include "editor/app/widgets/message_bar.h"
+#include "editor/app/widgets/param_source.h"
 
 #include <QCloseEvent>
 #include <QDockWidget>
@@ -154,15 +156,21 @@ void MainWindow::makePanels() {
     QDockWidget* tool = dock("dock_tool", tr("Tool"), scrolled(new ToolPanel(context)));
     QDockWidget* groom = dock("dock_groom", tr("Groom"), scrolled(new GroomPanel(context)));
     QDockWidget* hair = dock("dock_hair", tr("Hair"), new HairPanel(context));
+    QDockWidget* field = dock("dock_field", tr("Field"), new FieldPanel(context));
     QDockWidget* maps = dock("dock_maps", tr("Maps"), new MapsPanel(context));
     QDockWidget* parts = dock("dock_parts", tr("Parts"), new PartsPanel(context));
     QDockWidget* view = dock("dock_view", tr("View"), new ViewPanel(context));
     QDockWidget* history = dock("dock_history", tr("History"), new HistoryPanel(context));
     QDockWidget* why = dock("dock_explain", tr("Why"), new ExplainPanel(context, viewport()));
     splitDockWidget(tool, groom, Qt::Vertical);
-    for (QDockWidget* next : {hair, maps, parts, view, history, why}) tabifyDockWidget(groom, next);
+    for (QDockWidget* next : {view, history, why}) tabifyDockWidget(tool, next);
+    for (QDockWidget* next : {hair, field, maps, parts}) tabifyDockWidget(groom, next);
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    tool->raise();
     groom->raise();
+    // A tool that is picked shows its settings.
+    for (const BrushInfo& brush : brushes())
+        connect(&m_actions->get("tool." + qtext(brush.id)), &QAction::triggered, tool, &QWidget::raise);
     if (viewport()) {
         connect(viewport(), &Viewport::hairPicked, why, [why](std::optional<std::uint32_t> picked) {
             if (picked) why->raise();

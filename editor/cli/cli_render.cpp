@@ -63,6 +63,7 @@ Outcome render(const Options& options) {
     settings.showHair = options.view == "hair" || options.view == "both";
     settings.showLic = options.view == "lic" || options.view == "both";
     settings.showGuides = options.view == "guides";
+    settings.showStrokes = settings.showGuides;
     settings.overlayMap = options.map;
 
     std::shared_ptr<const LicTexture> texture;

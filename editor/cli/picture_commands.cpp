@@ -2,6 +2,8 @@
 #include "editor/cli/picture_commands.h"
 
 #include "core/commands/command_list.h"
+#include "core/field/groom_field.h"
+#include "core/field/grow_guides.h"
 #include "core/hair/generate.h"
 #include "core/io/image.h"
 #include "core/lic/live_texture.h"
@@ -125,6 +127,14 @@ public:
             const bool noMap = arguments[0].ends_with("/map") && value == "none";
             if (auto done = setGroomValue(groom, arguments[0], noMap ? std::string() : value); !done)
                 return done.error();
+            // What guides are grown by shows when they are grown.
+            if (m_settings.showHair && arguments[0].starts_with("field/")) {
+                const auto surface = context.surfaces.get(groom.mesh);
+                const auto field = groomField(groom, surface, progress);
+                if (!field) return field.error();
+                const auto grown = growGuidesAlong(groom, *surface, *field, growAlong(*groom.field), progress);
+                if (!grown) return grown.error();
+            }
             auto picture =
                 draw(context, groom, arguments[0].substr(arguments[0].find('/') + 1) + " " + value, progress);
             if (!picture) return picture.error();

@@ -34,6 +34,10 @@ Groom baseGroom() {
     groom.maps.edit("colour")->setTexel(1, 1, 2, 1.0f);
     groom.partings.edit() = {{1, "middle", {{0, 0.5f, 0.25f}, {3, 0.25f, 0.5f}, {7, 0.1f, 0.2f}}},
                              {4, "", {{2, 0.0f, 0.0f}, {5, 1.0f, 0.0f}}}};
+    groom.strokes.edit() = {{1, StrokeKind::Along, 2.0f, 0.0f, {{0, 0.5f, 0.25f}, {3, 0.25f, 0.5f}}},
+                            {3, StrokeKind::Whorl, 1.0f, 0.03f, {{2, 0.25f, 0.5f}}}};
+    groom.field.edit().lift = 0.5f;
+    groom.lic.edit().length.map = "density";
     return groom;
 }
 

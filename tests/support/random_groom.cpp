@@ -149,6 +149,16 @@ struct Digest {
             for (const SurfacePoint& point : parting.points) number(point.triangle), number(point.u), number(point.v);
         }
     }
+    void add(const std::vector<FieldStroke>& strokes) {
+        for (const FieldStroke& stroke : strokes) {
+            number(stroke.id);
+            number(static_cast<int>(stroke.kind));
+            number(stroke.weight);
+            number(stroke.radius);
+            number(stroke.points.size());
+            for (const SurfacePoint& point : stroke.points) number(point.triangle), number(point.u), number(point.v);
+        }
+    }
     void add(const GuideSet& guides) {
         number(guides.count());
         number(guides.nextId());
@@ -260,6 +270,21 @@ Groom randomGroom(std::uint32_t seed) {
         }
         groom.partings.edit().push_back(std::move(parting));
     }
+    for (int i = dice.below(4); i > 0; --i) {
+        FieldStroke stroke;
+        stroke.id = nextStrokeId(*groom.strokes);
+        stroke.kind = static_cast<StrokeKind>(dice.below(static_cast<int>(strokeKindNames.size())));
+        stroke.weight = 0.1f + 3.0f * dice.unit();
+        if (stroke.kind != StrokeKind::Along) stroke.radius = 0.2f * dice.unit();
+        for (int k = 2 + dice.below(5); k > 0; --k) {
+            const auto triangles = static_cast<int>(groom.mesh->triangleCount());
+            const float u = 0.5f * dice.unit();
+            stroke.points.push_back({static_cast<std::uint32_t>(dice.below(triangles)), u, 0.5f * dice.unit()});
+        }
+        groom.strokes.edit().push_back(std::move(stroke));
+    }
+    if (dice.chance(0.5f)) FieldParams::each(groom.field.edit(), randomise);
+    if (dice.chance(0.5f)) LicParams::each(groom.lic.edit(), randomise);
     return groom;
 }
 
@@ -284,6 +309,9 @@ std::uint64_t groomDigest(const Groom& groom) {
     }
     CountParams::each(*groom.counts, digest);
     digest.add(*groom.partings);
+    digest.add(*groom.strokes);
+    if (*groom.field != fieldParamsFor(*groom.mesh)) FieldParams::each(*groom.field, digest);
+    if (*groom.lic != licParamsFor(*groom.mesh)) LicParams::each(*groom.lic, digest);
     return hasher.digest();
 }
 

@@ -23,19 +23,28 @@ GroomSource::GroomSource(Document& document, EditorState& state, std::string blo
 
 void GroomSource::documentChanged() {
     const Groom& groom = m_document.groom();
-    if (groom.groups.sameAs(m_seenGroups) && groom.counts.sameAs(m_seenCounts) && groom.maps.sameAs(m_seenMaps) &&
-        m_seenGroup == m_state.group()) {
-        return;
-    }
-    m_seenGroups = groom.groups;
-    m_seenCounts = groom.counts;
-    m_seenMaps = groom.maps;
+    const bool same = groom.groups.sameAs(m_seen.groups) && groom.maps.sameAs(m_seen.maps) &&
+                      m_seenGroup == m_state.group() && groom.counts.sameAs(m_seen.counts) &&
+                      groom.field.sameAs(m_seen.field) && groom.lic.sameAs(m_seen.lic);
+    if (same) return;
+    m_seen.groups = groom.groups;
+    m_seen.maps = groom.maps;
+    m_seen.counts = groom.counts;
+    m_seen.field = groom.field;
+    m_seen.lic = groom.lic;
     m_seenGroup = m_state.group();
     Q_EMIT changed();
 }
 
-std::vector<ParamRef> GroomSource::refs(HairParams& params, CountParams& counts) const {
-    if (m_block == "counts") return paramsOf(counts);
+std::vector<ParamRef> GroomSource::ofGroom(Groom& groom) const {
+    std::vector<ParamRef> found;
+    Groom::eachBlock(groom, [&](const BlockInfo& info, auto& block) {
+        if (info.id == m_block) found = paramsOf(block.edit());
+    });
+    return found;
+}
+
+std::vector<ParamRef> GroomSource::ofGroup(HairParams& params) const {
     std::vector<ParamRef> found;
     HairParams::each(params, [&](const BlockInfo& info, auto& block) {
         if (info.id == m_block) found = paramsOf(block);
@@ -47,7 +56,10 @@ std::vector<ParamRef> GroomSource::values() {
     const Groom& groom = m_document.groom();
     const std::size_t group = static_cast<std::size_t>(std::max(m_state.group(), 0));
     m_params = (*groom.groups)[std::min(group, groom.groups->size() - 1)].params;
-    m_counts = *groom.counts;
+    m_blocks.counts = groom.counts;
+    m_blocks.field = groom.field;
+    m_blocks.lic = groom.lic;
+    if (std::vector<ParamRef> found = ofGroom(m_blocks); !found.empty()) return found;
     if (ofModifier()) {
         const std::string name = m_block.substr(m_block.find('/') + 1);
         for (const Modifier& modifier : m_params.modifiers) {
@@ -57,22 +69,25 @@ std::vector<ParamRef> GroomSource::values() {
         }
         return paramsOf(m_modifier);
     }
-    return refs(m_params, m_counts);
+    return ofGroup(m_params);
 }
 
 std::vector<ParamRef> GroomSource::defaults() {
-    // Statics: the references must outlive the call, and defaults never change.
+    // Statics and members: the references must outlive the call.
     static HairParams params;
-    static CountParams counts;
+    m_defaultBlocks.mesh = m_document.groom().mesh;
+    m_defaultBlocks.setDefaults();
+    if (std::vector<ParamRef> found = ofGroom(m_defaultBlocks); !found.empty()) return found;
     if (ofModifier()) {
         m_defaultModifier.params = defaultModifierParams(m_modifier.kind());
         return paramsOf(m_defaultModifier);
     }
-    return refs(params, counts);
+    return ofGroup(params);
 }
 
 std::string GroomSource::path(const ParamRef& param) const {
-    if (m_block == "counts") return "counts/" + std::string(param.info.id);
+    Groom blocks;
+    if (!ofGroom(blocks).empty()) return m_block + "/" + std::string(param.info.id);
     const Groom& groom = m_document.groom();
     const std::size_t group = static_cast<std::size_t>(std::max(m_state.group(), 0));
     return "groups/" + (*groom.groups)[std::min(group, groom.groups->size() - 1)].name + "/" + m_block + "/" +

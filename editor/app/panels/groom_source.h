@@ -12,7 +12,7 @@
 namespace whorl {
 
 /// One block of the active group ("frizz", or "modifiers/NAME" of a modifier that it has), or of the whole groom
-/// ("counts").
+/// ("counts", "field", "lic").
 class GroomSource : public ParamSource {
     Q_OBJECT
 
@@ -36,7 +36,9 @@ private:
     std::string path(const ParamRef& param) const;
     /// "Crown: tip amount of frizz".
     QString undoText(const ParamRef& param) const;
-    std::vector<ParamRef> refs(HairParams& params, CountParams& counts) const;
+    /// The parameters of the block, when it is one of the whole groom.
+    std::vector<ParamRef> ofGroom(Groom& groom) const;
+    std::vector<ParamRef> ofGroup(HairParams& params) const;
     bool ofModifier() const { return m_block.starts_with("modifiers/"); }
     void documentChanged();
 
@@ -46,10 +48,9 @@ private:
     Modifier m_modifier;  // of a block "modifiers/NAME": as it was seen last, also when it is gone
     Modifier m_defaultModifier;
     HairParams m_params;  // copies that `values` points into
-    CountParams m_counts;
-    Cow<std::vector<Group>> m_seenGroups;
-    Cow<CountParams> m_seenCounts;
-    MapSet m_seenMaps;
+    Groom m_blocks;       // only its blocks of the whole groom
+    Groom m_defaultBlocks;
+    Groom m_seen;  // only the parts that forms show
     int m_seenGroup = -1;
     QElapsedTimer m_sinceEdit;
     int m_session = 0;  // steps of one session at one parameter merge

@@ -13,7 +13,8 @@ namespace {
 
 QStringList rowsOf(const BrushInfo& brush) {
     if (brush.paintsGroups) return {"radius", "mirror", "front_only", "pressure_size"};
-    if (brush.id == "parting") return {"radius", "mirror", "front_only"};
+    if (brush.id == "align_strokes") return {"radius", "strength", "mirror", "front_only", "pressure_strength"};
+    if (brush.id == "parting" || brush.drawsStrokes) return {"radius", "mirror", "front_only"};
     QStringList rows{"radius", "strength"};
     if (brush.paintsMap)
         rows << "map"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "editor/app/viewport/stroke_input.h"
 
+#include "core/brushes/drawn_line.h"
+#include "core/commands/strokes.h"
 #include "editor/app/paint_map.h"
 #include "editor/app/widgets/param_source.h"
 
@@ -11,7 +13,7 @@ namespace whorl {
 const BrushInfo* StrokeInput::brushFor(const EditorState& state, Qt::KeyboardModifiers modifiers) {
     const BrushInfo* brush = state.brush();
     if (brush && !brush->paintsMap && (modifiers & Qt::ShiftModifier)) {
-        if (const BrushInfo* smooth = findBrush("smooth")) return smooth;
+        if (const BrushInfo* smooth = findBrush(brush->drawsStrokes ? "align_strokes" : "smooth")) return smooth;
     }
     return brush;
 }
@@ -35,6 +37,10 @@ Result<void> StrokeInput::begin(const StrokeView& view, const StrokePoint& point
     // A press alone must already be a preview: undo and Escape then know that a stroke is on its way.
     m_stroke->moveTo(point);
     m_document.preview(m_stroke->groom());
+    if (m_brush->id == "move_stroke") {
+        m_state.setPickedStroke(strokeUnder(m_document.committed(), *surface, view, point.pixel, settings.radiusPixels,
+                                            settings.frontOnly));
+    }
     return {};
 }
 
@@ -46,6 +52,8 @@ void StrokeInput::finish() {
     if (!m_stroke) return;
     Groom after = m_stroke->finish();
     m_stroke.reset();
+    if (const std::uint32_t id = m_brush->drawsStrokes ? changedStroke(m_document.committed(), after) : 0)
+        m_state.setPickedStroke(id);
     m_document.edit(std::move(after), qtext(m_brush->undoText));
 }
 

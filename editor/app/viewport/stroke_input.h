@@ -15,7 +15,7 @@ class StrokeInput {
 public:
     StrokeInput(Document& document, EditorState& state) : m_document(document), m_state(state) {}
 
-    /// Starts a stroke with the picked brush (Shift: the smooth brush; Ctrl: the opposite). A brush that paints
+    /// Starts a stroke with the picked brush (Shift: the brush that smooths; Ctrl: the opposite). A brush that paints
     /// chooses or makes its map first. The error is a sentence of the brush, for the artist.
     Result<void> begin(const StrokeView& view, const StrokePoint& point, Qt::KeyboardModifiers modifiers);
     void move(const StrokePoint& point);

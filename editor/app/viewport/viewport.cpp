@@ -98,6 +98,7 @@ void Viewport::paintGL() {
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
     m_renderer->setLicTexture(m_lic.texture());
+    m_renderer->setSingularities(m_lic.singularities());
     m_renderer->setTriangleColours(m_heat.colours());
     if (std::exchange(m_lookedChanged, false)) m_renderer->setHighlight(m_looked, m_lookedBy);
     ViewSettings settings = viewSettings();
@@ -115,6 +116,8 @@ ViewSettings Viewport::viewSettings() const {
     const BrushInfo* brush = m_state.brush();
     // Looking around and painting, the artist wants to see the hair and the map.
     settings.showGuides = settings.showGuides && brush && !brush->paintsMap;
+    settings.showStrokes = brush && brush->drawsStrokes;
+    settings.pickedStroke = m_state.pickedStroke();
     if (brush && brush->paintsMap) {
         const Groom& groom = m_document.groom();
         settings.overlayGroups = brush->paintsGroups;
@@ -196,7 +199,8 @@ void Viewport::pick(glm::vec2 pixel) {
 
 void Viewport::requestLic() {
     const int size = m_state.viewOptions().licSize();
-    if (size == 0) return;
+    const bool strokes = m_state.brush() && m_state.brush()->drawsStrokes;
+    if (size == 0 && !strokes) return;
     const Groom& groom = m_document.groom();
     if (size == m_licSize && !LiveTexture::differs(m_licSeen, groom)) return;
     m_licSeen = groom;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// comb-along: guides combed by lines in a script.
+// Strokes in a script, and guides grown along them.
+#include "core/brushes/constraints.h"
 #include "core/commands/command.h"
 #include "tests/support/shapes.h"
 
@@ -28,8 +29,8 @@ private Q_SLOTS:
         m_context.hasGroom = true;
     }
 
-    void guidesFollowTheLine() {
-        QVERIFY(say("comb-along lift 0 -0.2,0,0 0.2,0,0.2").ok());
+    void guidesFollowTheStroke() {
+        QVERIFY(say("add-stroke -0.2,0,0 0.2,0,0.2\nset field/lift 0\ngrow-along").ok());
         const glm::vec3 way = glm::normalize(glm::vec3(0.4f, 0.0f, 0.2f));
         for (std::size_t i = 0; i < m_context.groom.guides.count(); ++i) {
             const auto points = m_context.groom.guides.points(i);
@@ -37,9 +38,10 @@ private Q_SLOTS:
         }
     }
 
-    void twoLinesKeptApartByAParting() {
-        QVERIFY(say("add-parting 0,0,-0.5 0,0,0.5").ok());
-        QVERIFY(say("comb-along lift 0 -0.1,0,0 -0.4,0,0 / 0.1,0,0 0.4,0,0").ok());
+    void twoStrokesKeptApartByAParting() {
+        QVERIFY(say("add-parting 0,0,-0.5 0,0,0.5\nadd-stroke -0.1,0,0 -0.4,0,0\nadd-stroke 0.1,0,0 0.4,0,0\n"
+                    "set field/lift 0\ngrow-along")
+                    .ok());
         for (std::size_t i = 0; i < m_context.groom.guides.count(); ++i) {
             const auto points = m_context.groom.guides.points(i);
             const glm::vec3 way = points.back() - points.front();
@@ -49,26 +51,64 @@ private Q_SLOTS:
         }
     }
 
-    void onlyTheGroupAndTheLengthThatAreNamed() {
+    void onlyTheGroupThatIsNamed() {
         QVERIFY(say("add-group other").ok());
         m_context.groom.guides.setGroup(0, 1);
         m_context.groom.guides.setPoints(0, resampled(m_context.groom.guides.points(0), 15));
         const Groom before = m_context.groom;
-        QVERIFY(say("comb-along group hair length 0.02 lift 0.5 -0.2,0,0 0.2,0,0").ok());
+        QVERIFY(say("set field/length 0.02\nset field/lift 0.5\nadd-stroke -0.2,0,0 0.2,0,0\ngrow-along hair").ok());
         const auto same = m_context.groom.guides.points(0), old = before.guides.points(0);
         QVERIFY(std::equal(same.begin(), same.end(), old.begin(), old.end()));
-        for (std::size_t i = 1; i < m_context.groom.guides.count(); ++i) {
-            const auto points = m_context.groom.guides.points(i);
-            float length = 0.0f;
-            for (std::size_t k = 1; k < points.size(); ++k) length += glm::distance(points[k - 1], points[k]);
-            QVERIFY(std::abs(length - 0.02f) < 1e-4f);
+        for (std::size_t i = 1; i < m_context.groom.guides.count(); ++i)
+            QVERIFY(std::abs(curveLength(m_context.groom.guides.points(i)) - 0.02f) < 1e-4f);
+    }
+
+    void strokesAreChangedMovedAndRemoved() {
+        QVERIFY(say("add-stroke weight 2 -0.2,0,0 0.2,0,0").ok());
+        QVERIFY(say("add-stroke whorl radius 0.1 0.1,0,0.1").ok());
+        const Groom& groom = m_context.groom;
+        QCOMPARE(groom.strokes->size(), std::size_t{2});
+        QCOMPARE((*groom.strokes)[0].weight, 2.0f);
+        QCOMPARE((*groom.strokes)[1].points.size(), std::size_t{1});
+        QVERIFY(say("set-stroke 1 weight 0.5\nset-stroke 2 radius 0.2\nset-stroke 2 kind repel").ok());
+        QCOMPARE((*groom.strokes)[0].weight, 0.5f);
+        QCOMPARE((*groom.strokes)[1].radius, 0.2f);
+        QCOMPARE((*groom.strokes)[1].kind, StrokeKind::Repel);
+        QVERIFY(say("move-stroke 2 0.1,0.3,-0.05").ok());
+        const glm::vec3 moved = positionAt(*groom.mesh, (*groom.strokes)[1].points[0]);
+        QVERIFY(glm::distance(moved, glm::vec3(0.2f, 0.0f, 0.05f)) < 1e-4f);
+        QVERIFY(checkGroom(groom).empty());
+        QVERIFY(say("info")->find("stroke") != std::string::npos);
+        QVERIFY(say("remove-stroke 1").ok());
+        QCOMPARE(groom.strokes->size(), std::size_t{1});
+        QVERIFY(say("clear-strokes").ok());
+        QVERIFY(groom.strokes->empty());
+    }
+
+    void guidesBecomeStrokes() {
+        QVERIFY(say("add-stroke -0.2,0,0 0.2,0,0.2\nset field/lift 0\ngrow-along\nclear-strokes").ok());
+        QVERIFY(say("strokes-from-guides").ok());
+        const Groom& groom = m_context.groom;
+        QCOMPARE(groom.strokes->size(), groom.guides.count());
+        QVERIFY(checkGroom(groom).empty());
+        const glm::vec3 way = glm::normalize(glm::vec3(0.4f, 0.0f, 0.2f));
+        for (const FieldStroke& stroke : *groom.strokes) {
+            const glm::vec3 from = positionAt(*groom.mesh, stroke.points.front()),
+                            to = positionAt(*groom.mesh, stroke.points.back());
+            // Guides that leave the plane go on along its border.
+            if (std::max(std::abs(to.x), std::abs(to.z)) > 0.49f) continue;
+            QVERIFY(glm::dot(glm::normalize(to - from), way) > 0.99f);
         }
     }
 
     void wrongWordsAreExplained() {
+        QVERIFY(say("add-stroke -0.2,0,0 0.2,0,0").ok());
         for (const char* line :
-             {"comb-along lift 2 0,0,0 1,0,0", "comb-along length x 0,0,0 1,0,0", "comb-along group nobody 0,0,0 1,0,0",
-              "comb-along 1,2", "comb-along sideways 3", "comb-along 0,0,0", "comb-along 0,0,0 /"}) {
+             {"add-stroke", "add-stroke 1,2", "add-stroke 0,0,0", "add-stroke sideways 0,0,0 1,0,0",
+              "add-stroke weight 0 0,0,0 1,0,0", "add-stroke repel radius -1 0,0,0", "add-stroke weight 2",
+              "set-stroke 1 weight 1000", "set-stroke 7 weight 1", "set-stroke 1 size 2", "set-stroke 1 kind curly",
+              "set-stroke one weight 1", "move-stroke 1 left", "move-stroke 9 0,0,0", "remove-stroke 9",
+              "remove-stroke", "clear-strokes all", "grow-along nobody", "strokes-from-guides nobody"}) {
             const std::uint64_t digest = testing::groomDigest(m_context.groom);
             const auto said = say(line);
             QVERIFY2(!said.ok(), line);

@@ -51,10 +51,13 @@ float degreesBetween(const glm::vec3& a, const glm::vec3& b) {
 /// What a stroke of a kind asks for where the way over the skin to it is `to`.
 glm::vec3 asked(StrokeKind kind, const glm::vec3& to, const glm::vec3& normal) {
     const glm::vec3 along = to - normal * glm::dot(normal, to);
-    return kind == StrokeKind::Attract ? along : kind == StrokeKind::Repel ? -along : glm::cross(normal, -along);
+    if (kind == StrokeKind::Attract) return along;
+    if (kind == StrokeKind::Repel) return -along;
+    return glm::cross(normal, kind == StrokeKind::Whorl ? -along : along);
 }
 
-constexpr StrokeKind aroundPoints[] = {StrokeKind::Attract, StrokeKind::Repel, StrokeKind::Whorl};
+constexpr StrokeKind aroundPoints[] = {StrokeKind::Attract, StrokeKind::Repel, StrokeKind::Whorl,
+                                       StrokeKind::ClockwiseWhorl};
 
 }  // namespace
 
