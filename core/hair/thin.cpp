@@ -79,6 +79,11 @@ bool skipsVertices(const Groom& groom) {
                        [](const Group& group) { return group.params.general.skipThreshold > 0.0f; });
 }
 
+bool wantsNormals(const Groom& groom) {
+    return std::any_of(groom.groups->begin(), groom.groups->end(),
+                       [](const Group& group) { return group.params.general.writeNormals; });
+}
+
 std::vector<std::uint32_t> keptVertices(std::span<const glm::vec3> points, float threshold) {
     std::vector<std::uint32_t> kept{0};
     const std::size_t last = points.size() - 1;

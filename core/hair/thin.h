@@ -13,6 +13,9 @@ namespace whorl {
 /// True when a group has a skip threshold.
 bool skipsVertices(const Groom& groom);
 
+/// True when a group has general/write_normals on: files and RenderMan get the normals of all hair or of none.
+bool wantsNormals(const Groom& groom);
+
 /// `strands` without vertices on straight pieces. First and last vertices stay; each one left out is nearer to the
 /// straight line between the two kept ones around it than its group's threshold times the length of that line.
 /// Normals are turned to stay perpendicular to the curve.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/hair_file.h"
 
+#include "core/hair/thin.h"
 #include "core/io/hair_formats.h"
 
 #include <algorithm>
@@ -34,11 +35,6 @@ const HairFormat* hairFormatFor(const std::filesystem::path& file) {
     for (const HairFormat& format : formats)
         if (format.suffix == suffix) return &format;
     return nullptr;
-}
-
-bool wantsNormals(const Groom& groom) {
-    return std::any_of(groom.groups->begin(), groom.groups->end(),
-                       [](const Group& group) { return group.params.general.writeNormals; });
 }
 
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,

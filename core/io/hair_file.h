@@ -32,10 +32,8 @@ std::span<const HairFormat> hairFormats();
 /// By suffix of `file`; null for an unknown one.
 const HairFormat* hairFormatFor(const std::filesystem::path& file);
 
-/// True when a group has general/write_normals on: files hold the normals of all hair or of none.
-bool wantsNormals(const Groom& groom);
-
-/// Generates and writes in blocks: constant memory for any number of hairs. `surface`: that of the groom's mesh when it
+/// Generates and writes in blocks: constant memory for any number of hairs. Normals as
+/// wantsNormals has it. `surface`: that of the groom's mesh when it
 /// is at hand.
 Result<std::uint64_t> writeHair(const Groom& groom, const GenerateOptions& options, const std::filesystem::path& file,
                                 Progress& progress, std::shared_ptr<const Surface> surface = nullptr);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/procedural/ri_curves.h"
 
-#include "core/io/hair_file.h"
+#include "core/hair/thin.h"
 #include "core/procedural/procedural_groom.h"
 #include "core/sampling/root_sampler.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/hair_file.h"
 
+#include "core/hair/thin.h"
 #include "core/io/safe_file.h"
 #include "tests/support/shapes.h"
 

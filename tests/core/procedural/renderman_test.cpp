@@ -2,7 +2,7 @@
 // A host of the RenderMan interface that loads the library as renderers do and records what it is told.
 #include "core/hair/curve.h"
 #include "core/hair/generate.h"
-#include "core/io/hair_file.h"
+#include "core/hair/thin.h"
 #include "tests/core/procedural/procedural_hair.h"
 #include "tests/support/shapes.h"
 
