@@ -42,6 +42,10 @@ private Q_SLOTS:
         Progress progress;
         for (std::uint32_t seed = 0; seed < 4; ++seed) {
             const Groom groom = testing::randomGroom(seed);
+            // Strokes and what spreads from them stay at home.
+            Groom sent = groom;
+            sent.strokes = {};
+            sent.setDefaults();
             const fs::path package = folder / ("a" + std::to_string(seed) + ".groom");
             const std::uint32_t parts = seed % 4;
             const auto exported = exportPackage(groom, package, parts, progress);
@@ -51,7 +55,7 @@ private Q_SLOTS:
             QVERIFY2(opened.ok(), opened.ok() ? "" : opened.error().message.c_str());
             QVERIFY(opened->problems.empty());
             QCOMPARE(opened->parts.size(), static_cast<std::size_t>(parts ? parts : groom.counts->parts));
-            QCOMPARE(testing::groomDigest(opened->groom), testing::groomDigest(groom));
+            QCOMPARE(testing::groomDigest(opened->groom), testing::groomDigest(sent));
             QCOMPARE(opened->digest, digestOf(groom));
             QCOMPARE(digestOf(opened->groom), digestOf(groom));
         }
