@@ -77,8 +77,8 @@ void addGroom(std::vector<ActionInfo>& table) {
                      A::Push, line, ""});
     table.push_back(
         {"groom.grow_along", tr("Grow Guides along S&trokes"), "Ctrl+L",
-         tr("Gives every guide a new shape along the direction that spreads from the strokes; places guides first "
-            "when there are none."),
+         tr("Gives the guides of the active group new shapes along the direction that spreads from the strokes; "
+            "places guides first when there are none."),
          menu, A::Push, false, "grow"});
     table.push_back({"groom.strokes_from_guides", tr("Strokes &from Guides"), "",
                      tr("Replaces the strokes by those that follow the guides as they lie."), menu, A::Push, false,

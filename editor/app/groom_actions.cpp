@@ -152,7 +152,9 @@ void GroomActions::growAlong() {
             }
             const auto field = groomField(after, surface, progress);
             if (!field) return field.error();
-            return growGuidesAlong(after, *surface, *field, whorl::growAlong(*after.field), progress);
+            GrowAlong how = whorl::growAlong(*after.field);
+            how.group = std::clamp(m_state.group(), 0, static_cast<int>(after.groups->size()) - 1);
+            return growGuidesAlong(after, *surface, *field, how, progress);
         });
     if (done) {
         m_document.edit(std::move(after), tr("Grow guides along strokes"));

@@ -28,7 +28,7 @@ public:
     void regroupGuides();
     void clearGuides();
     void clearPartings();
-    /// Guides of all groups along the groom's field; placed first when there are none.
+    /// Guides of the active group along the groom's field; placed first when there are none.
     void growAlong();
     void strokesFromGuides();
     void removeStroke();
