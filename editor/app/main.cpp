@@ -17,19 +17,24 @@ int main(int argc, char** argv) {
     // A file that grows past a limit must end in a sentence, not in the end of the program.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    QApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
-    QApplication application(argc, argv);
-    QApplication::setOrganizationName("whorl");
-    QApplication::setApplicationName("whorl");
-    QApplication::setApplicationDisplayName("Whorl");
-    QApplication::setApplicationVersion(WHORL_VERSION);
-    QApplication::setDesktopFileName("whorl");
-
+    QCoreApplication::setOrganizationName("whorl");
+    QCoreApplication::setApplicationName("whorl");
+    QCoreApplication::setApplicationVersion(WHORL_VERSION);
     QCommandLineParser parser;
     parser.setApplicationDescription(QObject::tr("Interactive hair grooming."));
-    parser.addHelpOption();
-    parser.addVersionOption();
+    const QCommandLineOption help = parser.addHelpOption();
+    const QCommandLineOption version = parser.addVersionOption();
     parser.addPositionalArgument("FILE", QObject::tr("A document (.whorl), a package (.groom) or a mesh."), "[FILE]");
+    {
+        // What needs no window is answered without a display.
+        QCoreApplication plain(argc, argv);
+        parser.parse(QCoreApplication::arguments());
+        if (parser.isSet(help) || parser.isSet(version) || parser.isSet("help-all")) parser.process(plain);
+    }
+    QApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
+    QApplication application(argc, argv);
+    QApplication::setApplicationDisplayName("Whorl");
+    QApplication::setDesktopFileName("whorl");
     parser.process(application);
 
     whorl::applyTheme(application, whorl::themeInSettings());

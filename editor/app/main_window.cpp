@@ -168,9 +168,12 @@ void MainWindow::makePanels() {
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     tool->raise();
     groom->raise();
-    // A tool that is picked shows its settings.
-    for (const BrushInfo& brush : brushes())
-        connect(&m_actions->get("tool." + qtext(brush.id)), &QAction::triggered, tool, &QWidget::raise);
+    // A tool that is picked shows its settings; one that draws strokes also what is made of them.
+    for (const BrushInfo& brush : brushes()) {
+        const QAction& action = m_actions->get("tool." + qtext(brush.id));
+        connect(&action, &QAction::triggered, tool, &QWidget::raise);
+        if (brush.drawsStrokes) connect(&action, &QAction::triggered, field, &QWidget::raise);
+    }
     if (viewport()) {
         connect(viewport(), &Viewport::hairPicked, why, [why](std::optional<std::uint32_t> picked) {
             if (picked) why->raise();

@@ -120,7 +120,11 @@ private Q_SLOTS:
     void cleanup() { close(); }
 
     void strokesArePickedChangedMovedAndRemoved() {
+        auto* panel = find<QDockWidget>("dock_field");
+        find<QDockWidget>("dock_groom")->raise();
+        QTRY_VERIFY(panel->visibleRegion().isEmpty());
         tool("sketch");
+        QTRY_VERIFY(!panel->visibleRegion().isEmpty());  // with the tool comes the list of what it draws
         size(30.0f);
         testing::drag(view(), {at(0.45, 0.2), at(0.45, 0.4)});
         testing::drag(view(), {at(0.55, 0.2), at(0.55, 0.4)});
