@@ -129,6 +129,9 @@ void addView(std::vector<ActionInfo>& table) {
                      A::Push, false, ""});
     table.push_back({"view.top", tr("T&op"), "Num+7; Alt+5", tr("Looks from above."), menu, A::Push, line, ""});
     table.push_back({"view.hair", tr("&Hair"), "Shift+H", tr("Shows or hides the hair."), menu, A::Check, false, ""});
+    table.push_back({"view.texture", tr("Hair as &Texture"), "Shift+T",
+                     tr("Shows hair as a texture on the model, which follows strokes at once; or as hairs again."),
+                     menu, A::Check, false, ""});
     table.push_back(
         {"view.guides", tr("&Guides"), "Shift+G", tr("Shows or hides the guides."), menu, A::Check, false, ""});
     table.push_back({"view.mesh", tr("&Model"), "Shift+M", tr("Shows or hides the model."), menu, A::Check, false, ""});

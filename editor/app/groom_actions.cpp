@@ -228,6 +228,13 @@ ViewActions::ViewActions(EditorState& state, Actions& actions, Viewport* viewpor
     toggle("view.guides", &ViewOptions::showGuides);
     toggle("view.mesh", &ViewOptions::showMesh);
     toggle("view.heat", &ViewOptions::heat);
+    actions.onToggle("view.texture", this, [this](bool on) {
+        ViewOptions options = m_state.viewOptions();
+        options.hairAs.index = on ? 1 : 0;
+        options.showHair |= on;
+        options.heat &= !on;
+        m_state.setViewOptions(options);
+    });
     actions.onToggle("view.fullscreen", this, [&window](bool on) {
         window.setWindowState(on ? window.windowState() | Qt::WindowFullScreen
                                  : window.windowState() & ~Qt::WindowFullScreen);
@@ -251,6 +258,7 @@ void ViewActions::refresh() {
     m_actions.get("view.guides").setChecked(m_state.viewOptions().showGuides);
     m_actions.get("view.mesh").setChecked(m_state.viewOptions().showMesh);
     m_actions.get("view.heat").setChecked(m_state.viewOptions().heat);
+    m_actions.get("view.texture").setChecked(m_state.viewOptions().hairAs.index != 0);
 }
 
 }  // namespace whorl

@@ -184,9 +184,10 @@ private Q_SLOTS:
         }
         for (const double y : {0.4, 0.5, 0.6, 0.7}) testing::drag(view(), {at(0.4, y), at(0.6, y)});
         // Shown as texture from now on: it lies as gravity has it, until there are strokes.
-        ViewOptions options = m_window->state().viewOptions();
-        options.hairAs.index = 1;
-        m_window->state().setViewOptions(options);
+        auto* texture = find<QAbstractButton>("view_texture");
+        QTest::mouseClick(texture, Qt::LeftButton);
+        QVERIFY(texture->isChecked());
+        QCOMPARE(m_window->state().viewOptions().hairAs.index, 1);
         view().lookFrom("top");
         QVERIFY(testing::settle(*m_window));
         const auto hanging = view().licTexture();
@@ -209,8 +210,9 @@ private Q_SLOTS:
         const auto combed = view().licTexture();
         QVERIFY2(changedShare(*hanging, *combed) > 0.5, qPrintable(QString::number(changedShare(*hanging, *combed))));
         keep("field_strokes.png");
-        options.hairAs.index = 0;
-        m_window->state().setViewOptions(options);
+        QTest::mouseClick(texture, Qt::LeftButton);
+        QVERIFY(!texture->isChecked());
+        QCOMPARE(m_window->state().viewOptions().hairAs.index, 0);
         Groom placed = document().committed();
         placed.counts.edit().guides = 800;
         document().edit(std::move(placed), "guides");

@@ -79,15 +79,20 @@ FieldPanel::FieldPanel(PanelContext context, QWidget* parent)
     column->addWidget(m_numbers);
     auto* buttons = new QVBoxLayout;
     buttons->setContentsMargins(10, 0, 10, 0);
-    for (const char* id : {"groom.grow_along", "groom.strokes_from_guides", "groom.remove_stroke"}) {
+    for (const char* id : {"groom.grow_along", "view.texture", "groom.strokes_from_guides", "groom.remove_stroke"}) {
         QAction& action = context.actions.get(id);
         auto* button = new QPushButton(Actions::plainText(context.actions.info(id)));
         button->setObjectName(QString(id).replace('.', '_'));
         button->setToolTip(action.toolTip());
         button->setAccessibleDescription(action.statusTip());
-        button->setEnabled(action.isEnabled());
+        button->setCheckable(action.isCheckable());
+        const auto follow = [button, &action] {
+            button->setEnabled(action.isEnabled());
+            button->setChecked(action.isChecked());
+        };
+        follow();
         connect(button, &QPushButton::clicked, &action, &QAction::trigger);
-        connect(&action, &QAction::changed, button, [button, &action] { button->setEnabled(action.isEnabled()); });
+        connect(&action, &QAction::changed, button, follow);
         buttons->addWidget(button);
     }
     column->addLayout(buttons);
