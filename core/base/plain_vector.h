@@ -42,4 +42,23 @@ struct PlainAllocator {
 template <class T>
 using PlainVector = std::vector<T, PlainAllocator<T>>;
 
+/// Memory that begins with a cache line.
+template <class T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t line{64};
+    LineAllocator() = default;
+    template <class U>
+    explicit LineAllocator(const LineAllocator<U>&) noexcept {}
+    T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), line)); }
+    void deallocate(T* memory, std::size_t) noexcept { ::operator delete(memory, line); }
+    template <class U>
+    bool operator==(const LineAllocator<U>&) const noexcept {
+        return true;
+    }
+};
+
+/// Rows of numbers for kernels, which take a cache line at once.
+using LineVector = std::vector<float, LineAllocator<float>>;
+
 }  // namespace whorl

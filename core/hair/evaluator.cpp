@@ -10,7 +10,7 @@ namespace whorl {
 namespace {
 
 // One coordinate of the Catmull-Rom curve of a lane (vertex v at [v * 16 + lane]) at `parameter`: see strandPoint.
-float laneCurveAt(const std::vector<float>& row, std::size_t lane, std::size_t points, float parameter) {
+float laneCurveAt(const LineVector& row, std::size_t lane, std::size_t points, float parameter) {
     constexpr std::size_t lanes = Evaluator::lanes;
     const std::size_t piece = std::min(static_cast<std::size_t>(parameter), points - 2);
     const float t = parameter - static_cast<float>(piece);
@@ -69,7 +69,7 @@ void Evaluator::make(const GroupTables& group, std::span<const std::uint32_t> wh
     const std::size_t rows = (group.stride + 4) * lanes;
     if (m_row[0].size() < rows) {
         for (Rows* all : {&m_row, &m_normal})
-            for (std::vector<float>& row : *all) row.resize(rows);
+            for (LineVector& row : *all) row.resize(rows);
     }
     take(group, which);
     shape(group);
@@ -81,9 +81,9 @@ void Evaluator::make(const GroupTables& group, std::span<const std::uint32_t> wh
         makeMembers(group);
     } else {
         frame(*std::max_element(m_vertices, m_vertices + lanes));
-        store(m_row, m_normal, 0);
+        store();
+        look(group);
     }
-    look(group);
 }
 
 void Evaluator::setLook(const GroupTables& group, std::span<const std::uint32_t> which) {
@@ -94,7 +94,7 @@ void Evaluator::setLook(const GroupTables& group, std::span<const std::uint32_t>
 void Evaluator::shape(const GroupTables& group) {
     const HairSources& s = m_sources;
     for (std::size_t l = 0; l < lanes; ++l) m_shaper.set(l, s.roots[m_roots[l]], *m_traits[l]);
-    for (std::vector<float>& axis : m_hairs) axis.resize(lanes * group.stride);
+    for (LineVector& axis : m_hairs) axis.resize(lanes * group.stride);
     const ShapeSpace space{group.turned, group.stride, group.along.data(), group.ease.data(), s.kinkOffset};
     m_shaper.shape(space, s.shapes, s.bindings, m_roots, m_count, m_hairs[0].data(), m_hairs[1].data(),
                    m_hairs[2].data());
@@ -145,7 +145,7 @@ bool Evaluator::anyCut(const GroupTables& group) const {
 }
 
 void Evaluator::straightOn(Rows& rows, const GroupTables& group) {
-    for (std::vector<float>& row : rows) {
+    for (LineVector& row : rows) {
         float* on = &row[group.vertices() * lanes];
         const float *last = on - lanes, *before = last - lanes;
         for (std::size_t l = 0; l < lanes; ++l) on[l] = last[l] * 2.0f - before[l];
@@ -156,7 +156,7 @@ void Evaluator::straightOn(Rows& rows, const GroupTables& group) {
 void Evaluator::cutLane(Rows& rows, const GroupTables& group, std::size_t lane) const {
     const std::size_t full = group.vertices(), vertices = m_vertices[lane];
     const bool cut = m_ends[lane] < static_cast<float>(group.segments);
-    for (std::vector<float>& row : rows) {
+    for (LineVector& row : rows) {
         const std::size_t last = (vertices - 1) * lanes + lane;
         if (cut) row[last] = laneCurveAt(row, lane, full, m_ends[lane]);
         const float on = row[last] * 2.0f - row[last - lanes];
@@ -172,34 +172,37 @@ void Evaluator::frame(std::size_t vertices) {
     WHORL_PICK(frameHairs)(arrays);
 }
 
-// Writes the hairs, or that member of their strands.
-void Evaluator::store(const Rows& points, const Rows& normals, std::uint32_t member) {
+void Evaluator::store() {
     float *pointsOut[lanes], *normalsOut[lanes];
     for (std::size_t l = 0; l < m_count; ++l) {
-        const std::size_t first = m_strands.firstVertex[m_firstStrand[l] + member];
+        const std::size_t first = m_strands.firstVertex[m_firstStrand[l]];
         pointsOut[l] = &m_strands.positions[first].x;
         normalsOut[l] = &m_strands.normals[first].x;
     }
     WHORL_PICK(storeVectors)
-    ({m_count, {points[0].data(), points[1].data(), points[2].data()}, m_vertices, pointsOut, m_past});
+    ({m_count, {m_row[0].data(), m_row[1].data(), m_row[2].data()}, m_vertices, pointsOut, m_past});
     WHORL_PICK(storeVectors)
-    ({m_count, {normals[0].data(), normals[1].data(), normals[2].data()}, m_vertices, normalsOut, m_past});
+    ({m_count, {m_normal[0].data(), m_normal[1].data(), m_normal[2].data()}, m_vertices, normalsOut, m_past});
 }
 
-// Widths and colours of the hairs and their members.
+// Widths and colours of the hairs and their members, to where they stay.
 void Evaluator::look(const GroupTables& group) {
-    float last[lanes];
     float *widths[lanes], *colours[lanes];
     for (std::size_t l = 0; l < m_count; ++l) {
         const std::size_t first = m_strands.firstVertex[m_firstStrand[l]];
-        last[l] = m_ends[l] / static_cast<float>(group.segments);
         widths[l] = &m_strands.widths[first];
         colours[l] = &m_strands.colours[first].x;
     }
-    const std::size_t members = std::max<std::size_t>(group.members, 1);
+    look(group, std::max<std::size_t>(group.members, 1), widths, colours, m_past);
+}
+
+void Evaluator::look(const GroupTables& group, std::size_t members, float* const* widths, float* const* colours,
+                     bool past) {
+    float last[lanes];
+    for (std::size_t l = 0; l < m_count; ++l) last[l] = m_ends[l] / static_cast<float>(group.segments);
     const bool tapered = !m_sources.chain.looks(group.group).empty();
     WHORL_PICK(lookHairs)
-    ({m_count, members, m_traits, m_vertices, last, group.along.data(), widths, colours, m_past && !tapered});
+    ({m_count, members, m_traits, m_vertices, last, group.along.data(), widths, colours, past && !tapered});
     for (std::size_t l = 0; l < m_count && tapered; ++l) {
         taper(group, l, last[l], widths[l]);
         for (std::size_t member = 1; member < members; ++member)

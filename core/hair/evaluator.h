@@ -2,6 +2,7 @@
 // Makes sixteen hairs at a time: the inside of evaluateHairs.
 #pragma once
 
+#include "core/base/plain_vector.h"
 #include "core/hair/evaluate.h"
 #include "core/hair/shaper.h"
 
@@ -43,7 +44,7 @@ public:
     void setLook(const GroupTables& group, std::span<const std::uint32_t> which);
 
 private:
-    using Rows = std::array<std::vector<float>, 3>;  // x, y, z: vertex v of lane l at [v * 16 + l]
+    using Rows = std::array<LineVector, 3>;  // x, y, z: vertex v of lane l at [v * 16 + l]
 
     void take(const GroupTables& group, std::span<const std::uint32_t> which);
     void shape(const GroupTables& group);
@@ -57,8 +58,10 @@ private:
     void cutLane(Rows& rows, const GroupTables& group, std::size_t lane) const;
     void frame(std::size_t vertices);
     void makeMembers(const GroupTables& group);
-    void store(const Rows& points, const Rows& normals, std::uint32_t member);
+    void storeStrand(const GroupTables& group, std::size_t lane);
+    void store();
     void look(const GroupTables& group);
+    void look(const GroupTables& group, std::size_t members, float* const* widths, float* const* colours, bool past);
     void taper(const GroupTables& group, std::size_t lane, float last, float* widths);
 
     const HairSources& m_sources;
@@ -74,10 +77,12 @@ private:
     float m_ends[lanes] = {};              // curve parameter that it is cut at, 0 to segments
     bool m_past = false;                   // to be written past the caches
     Shaper m_shaper;
-    std::array<std::vector<float>, 3> m_hairs;  // vertex v of lane l at [l * stride + v]
+    std::array<LineVector, 3> m_hairs;  // vertex v of lane l at [l * stride + v]
     std::vector<glm::vec3> m_points;
-    Rows m_row, m_normal, m_u, m_v, m_w, m_member, m_memberNormal;
-    std::vector<float> m_scratch, m_numbers, m_tapers;
+    Rows m_row, m_normal, m_u, m_v, m_w;
+    LineVector m_strandRows, m_widths, m_colours, m_places;  // see makeMembers
+    LineVector m_scratch;
+    std::vector<float> m_numbers, m_tapers;
     float m_random[ModifierArrays::randomRows * lanes] = {};
     std::uint64_t m_keys[lanes] = {};   // of hairs for random numbers
     std::uint64_t m_locks[lanes] = {};  // of the last lock that gathered them, else that of the hair

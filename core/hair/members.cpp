@@ -4,19 +4,12 @@
 #include "core/hair/evaluator.h"
 #include "core/hair/members.kernel.h"
 #include "core/hair/modifiers/turns.h"
+#include "core/hair/strand_members.kernel.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace whorl {
-namespace {
-
-std::array<const float*, 3> pointers(const std::array<std::vector<float>, 3>& rows) {
-    return {rows[0].data(), rows[1].data(), rows[2].data()};
-}
-
-}  // namespace
-
 MemberPlace memberPlace(std::uint32_t seed, std::uint32_t hair, std::uint32_t member, std::uint32_t count,
                         float randomise, float aspect) {
     const auto random = [&](HairChannel channel) {
@@ -37,8 +30,8 @@ MemberPlace memberPlace(std::uint32_t seed, std::uint32_t hair, std::uint32_t me
 // Members of the hairs in the lanes, whose whole curves and frames are there.
 void Evaluator::makeMembers(const GroupTables& group) {
     const std::size_t full = static_cast<std::size_t>(group.segments) + 1;
-    for (Rows* all : {&m_u, &m_v, &m_w, &m_member, &m_memberNormal})
-        for (std::vector<float>& row : *all) row.resize(lanes * (group.stride + 4));
+    for (Rows* all : {&m_u, &m_v, &m_w})
+        for (LineVector& row : *all) row.resize(lanes * (group.stride + 4));
     float splay[3][lanes], twist[lanes], offset[lanes];
     for (std::size_t l = 0; l < lanes; ++l) {
         const HairTraits& t = *m_traits[l];
@@ -74,39 +67,51 @@ void Evaluator::makeMembers(const GroupTables& group) {
             for (std::size_t l = 0; l < lanes; ++l) cutLane(*all, group, l);
         }
     }
-    const std::uint32_t most = *std::max_element(m_vertices, m_vertices + lanes);
-    const auto seed = static_cast<std::uint32_t>(m_sources.groom.counts->seed);
+    // Widths and colours of the hairs, which their members share.
+    const std::size_t stride = group.stride;
+    m_widths.resize(lanes * stride);
+    m_colours.resize(4 * lanes * stride);
+    float *widths[lanes], *colours[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+        widths[l] = &m_widths[l * stride];
+        colours[l] = &m_colours[4 * l * stride];
+    }
+    look(group, 1, widths, colours, false);
+    RowArrays rows{};
+    rows.stride = stride;
+    std::size_t next = 0;
+    for (const Rows* all : {&m_row, &m_u, &m_v, &m_w, &m_normal})
+        for (const LineVector& row : *all) rows.in[next++] = row.data();
+    m_strandRows.resize(RowArrays::hairs * StrandRows::size(stride));
+    rows.out = m_strandRows.data();
+    for (std::size_t l = 0; l < m_count; ++l) {
+        if (l % RowArrays::hairs == 0) {
+            rows.lane = l;
+            WHORL_PICK(strandRows)(rows);
+        }
+        storeStrand(group, l);
+    }
+}
+
+// The members of the hair in one lane, whose rows, widths and colours are there.
+void Evaluator::storeStrand(const GroupTables& group, std::size_t lane) {
     const auto channel = [](HairChannel of) { return static_cast<std::uint32_t>(of); };
     const std::uint32_t channels[3] = {channel(HairChannel::MemberRadius), channel(HairChannel::MemberTurn),
                                        channel(HairChannel::MemberLift)};
-    std::uint32_t ids[lanes];
-    float randomise[lanes], aspect[lanes], strandTurn[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) {
-        ids[l] = m_sources.roots[m_roots[l]].id;
-        randomise[l] = m_traits[l]->memberRandomise;
-        aspect[l] = m_traits[l]->memberAspect;
-        strandTurn[l] = randomFloat(seed, ids[l], channel(HairChannel::StrandTurn));
-    }
-    for (std::uint32_t member = 0; member < group.members; ++member) {
-        float across[lanes], up[lanes], lift[lanes];
-        WHORL_PICK(memberPlaces)
-        ({seed, ids, member, group.members, channels, randomise, aspect, strandTurn, across, up, lift});
-        const auto base = pointers(m_row), normal = pointers(m_normal), u = pointers(m_u), v = pointers(m_v),
-                   w = pointers(m_w);
-        const MemberPoints points{most,
-                                  {base[0], base[1], base[2]},
-                                  {normal[0], normal[1], normal[2]},
-                                  {u[0], u[1], u[2]},
-                                  {v[0], v[1], v[2]},
-                                  {w[0], w[1], w[2]},
-                                  across,
-                                  up,
-                                  lift,
-                                  {m_member[0].data(), m_member[1].data(), m_member[2].data()},
-                                  {m_memberNormal[0].data(), m_memberNormal[1].data(), m_memberNormal[2].data()}};
-        WHORL_PICK(strandMembers)(points);
-        store(m_member, m_memberNormal, member);
-    }
+    const auto seed = static_cast<std::uint32_t>(m_sources.groom.counts->seed);
+    const std::uint32_t id = m_sources.roots[m_roots[lane]].id;
+    const HairTraits& t = *m_traits[lane];
+    m_places.resize(3 * ((group.members + lanes - 1) / lanes * lanes));
+    const std::size_t places = m_places.size() / 3;
+    float *const across = m_places.data(), *const up = across + places, *const lift = up + places;
+    WHORL_PICK(memberPlaces)
+    ({seed, id, group.members, channels, t.memberRandomise, t.memberAspect,
+      randomFloat(seed, id, channel(HairChannel::StrandTurn)), across, up, lift});
+    const std::size_t first = m_strands.firstVertex[m_firstStrand[lane]];
+    WHORL_PICK(strandMembers)
+    ({m_vertices[lane], &m_strandRows[lane % RowArrays::hairs * StrandRows::size(group.stride)], group.members, across,
+      up, lift, &m_widths[lane * group.stride], &m_colours[4 * lane * group.stride], &m_strands.positions[first].x,
+      &m_strands.normals[first].x, &m_strands.widths[first], &m_strands.colours[first].x, m_past});
 }
 
 }  // namespace whorl

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/members.kernel.h"
 
-#include "core/base/lanes.h"
 #include "core/base/polynomials.h"
 #include "core/base/random_lanes.h"
 #include "core/hair/frame_steps.h"
@@ -12,7 +11,6 @@ namespace {
 
 constexpr std::size_t lanes = MemberArrays::lanes;
 using frame_steps::Vectors;
-using lanes16::Lanes;
 
 }  // namespace
 
@@ -65,53 +63,32 @@ void strandAxes(const MemberArrays& a) {
     }
 }
 
-void strandMembers(const MemberPoints& a) {
-    Lanes across, up, lift;
-    lanes16::load(a.across, across);
-    lanes16::load(a.up, up);
-    lanes16::load(a.lift, lift);
-    for (int axis = 0; axis < 3; ++axis) {
-        const float *base = a.base[axis], *u = a.u[axis], *v = a.v[axis], *w = a.w[axis];
-        float* point = a.point[axis];
-        for (std::size_t row = 0; row < (a.vertices + 1) * lanes; row += lanes) {
-            Lanes b, ru, rv, rw;
-            lanes16::load(base + row, b);
-            lanes16::load(u + row, ru);
-            lanes16::load(v + row, rv);
-            lanes16::load(w + row, rw);
-            lanes16::store(b + across * ru + up * rv + lift * rw, point + row);
-        }
-    }
-    Vectors tangent = {}, normal;
-    for (std::size_t vertex = 0; vertex < a.vertices; ++vertex) {
-        const std::size_t here = vertex * lanes, last = vertex > 0 ? here - lanes : here, next = here + lanes;
-        frame_steps::tangents(a.point[0] + last, a.point[1] + last, a.point[2] + last, a.point[0] + next,
-                              a.point[1] + next, a.point[2] + next, tangent);
-        __builtin_memcpy(normal.x, a.normal[0] + here, sizeof normal.x);
-        __builtin_memcpy(normal.y, a.normal[1] + here, sizeof normal.y);
-        __builtin_memcpy(normal.z, a.normal[2] + here, sizeof normal.z);
-        frame_steps::straighten(tangent, normal, 1e-6f);
-        __builtin_memcpy(a.pointNormal[0] + here, normal.x, sizeof normal.x);
-        __builtin_memcpy(a.pointNormal[1] + here, normal.y, sizeof normal.y);
-        __builtin_memcpy(a.pointNormal[2] + here, normal.z, sizeof normal.z);
-    }
-}
-
 void memberPlaces(const PlaceArrays& a) {
-    const auto member = static_cast<float>(a.member);
-    const float even = (member + 0.5f) / static_cast<float>(a.count);
-    const bool several = a.count > 1;
-    for (std::size_t l = 0; l < lanes; ++l) {
-        const std::uint64_t key = std::uint64_t{a.hairs[l]} << 8 | a.member;
-        const float randomise = a.randomise[l];
-        const float area = even + randomise * (random_lanes::uniform(a.seed, key, a.channels[0]) - even);
-        const float turn =
-            0.381966f * member + randomise * (random_lanes::uniform(a.seed, key, a.channels[1]) + a.strandTurn[l]);
-        const float radius = several || randomise > 0.0f ? __builtin_sqrtf(area) : 0.0f;
-        const TurnSinCos at = sinCosOfTurns(turn);
-        a.across[l] = radius * at.cos * a.aspect[l];
-        a.up[l] = radius * at.sin;
-        a.lift[l] = even + randomise * (random_lanes::uniform(a.seed, key, a.channels[2]) - even);
+    const auto count = static_cast<float>(a.count);
+    const float spread = a.count > 1 || a.randomise > 0.0f ? 1.0f : 0.0f;
+    for (std::uint32_t first = 0; first < a.count; first += lanes) {
+        float random[3][lanes];
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::uint32_t l = 0; l < lanes; ++l) {
+                const std::uint64_t key = std::uint64_t{a.hair} << 8 | ((first + l) & 0xff);
+                random[i][l] = random_lanes::uniform(a.seed, key, a.channels[i]);
+            }
+        }
+        float across[lanes], up[lanes], lift[lanes];
+        for (std::uint32_t l = 0; l < lanes; ++l) {
+            const auto member = static_cast<float>(static_cast<std::int32_t>(first + l));
+            const float even = (member + 0.5f) / count;
+            const float area = even + a.randomise * (random[0][l] - even);
+            const float turn = 0.381966f * member + a.randomise * (random[1][l] + a.strandTurn);
+            const float radius = spread * __builtin_sqrtf(area);
+            const TurnSinCos at = sinCosOfTurns(turn);
+            across[l] = radius * at.cos * a.aspect;
+            up[l] = radius * at.sin;
+            lift[l] = even + a.randomise * (random[2][l] - even);
+        }
+        __builtin_memcpy(a.across + first, across, sizeof across);
+        __builtin_memcpy(a.up + first, up, sizeof up);
+        __builtin_memcpy(a.lift + first, lift, sizeof lift);
     }
 }
 

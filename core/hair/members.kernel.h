@@ -38,46 +38,26 @@ struct MemberArrays {
     float* w[3];
 };
 
-/// One member a lane, once the rows above are cut.
-struct MemberPoints {
-    std::size_t vertices;  ///< rows, of which one more is read of every array
-    const float* base[3];
-    const float* normal[3];
-    const float* u[3];
-    const float* v[3];
-    const float* w[3];
-    const float* across;  ///< one a lane
-    const float* up;
-    const float* lift;
-    // Out: points, with one row more than `vertices`, and unit normals.
-    float* point[3];
-    float* pointNormal[3];
-};
-
-/// Places of one member of sixteen strands: see memberPlace.
+/// Places of the members of one strand, a member a lane: see memberPlace.
 struct PlaceArrays {
     std::uint32_t seed;
-    const std::uint32_t* hairs;  ///< ids, one a lane
-    std::uint32_t member;
-    std::uint32_t count;            ///< hairs of a strand
+    std::uint32_t hair;             ///< its id
+    std::uint32_t count;            ///< hairs of the strand
     const std::uint32_t* channels;  ///< of radius, turn and lift
-    const float* randomise;         ///< one a lane
-    const float* aspect;
-    const float* strandTurn;  ///< random number of the strand
-    // Out.
+    float randomise;
+    float aspect;
+    float strandTurn;  ///< random number of the strand
+    // Out: up to the next multiple of 16.
     float* across;
     float* up;
     float* lift;
 };
 
-#define WHORL_MEMBER_KERNELS(level)                                        \
-    namespace level {                                                      \
-    /* U, V and W of base hairs. */                                        \
-    void strandAxes(const MemberArrays& arrays);                           \
-    /* Points of one member a base hair and its normals, across its own */ \
-    /* direction, made from those of the base hair. */                     \
-    void strandMembers(const MemberPoints& arrays);                        \
-    void memberPlaces(const PlaceArrays& arrays);                          \
+#define WHORL_MEMBER_KERNELS(level)               \
+    namespace level {                             \
+    /* U, V and W of base hairs. */               \
+    void strandAxes(const MemberArrays& arrays);  \
+    void memberPlaces(const PlaceArrays& arrays); \
     }
 WHORL_EACH_SIMD_LEVEL(WHORL_MEMBER_KERNELS)
 #undef WHORL_MEMBER_KERNELS

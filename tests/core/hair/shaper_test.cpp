@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/hair/shaper.h"
 
+#include "core/base/plain_vector.h"
 #include "core/base/random.h"
 #include "core/base/simd.h"
 #include "core/hair/curves.kernel.h"
+#include "core/hair/strand_members.kernel.h"
 #include "core/surface/surface_point.h"
 
 #include <glm/geometric.hpp>
@@ -145,6 +147,75 @@ private Q_SLOTS:
                     }
                 }
             }
+        });
+    }
+
+    void membersLeaveTheirLaneWhole() {
+        // Any number of vertices and members, past the caches or not; nothing beyond the strand is touched. Some
+        // vertices coincide, and some normals run along the hair.
+        constexpr std::size_t stride = 32;
+        std::vector<float> lane[15];
+        for (std::uint32_t row = 0; row < 15; ++row) {
+            const std::uint32_t of = row / 3;
+            for (std::size_t i = 0; i < (stride + 4) * lanes; ++i) {
+                const float along = static_cast<float>(i / lanes) * 0.01f;
+                lane[row].push_back(of == 0   ? (row == 1 ? along : 0.0f) + 0.003f * dice(i, row)
+                                    : of == 4 ? direction(i, 40)[static_cast<int>(row % 3)]
+                                              : 0.001f * dice(i, row));
+            }
+        }
+        for (std::uint32_t row = 0; row < 12; ++row) {
+            for (std::size_t v = 4; v < 7; ++v) lane[row][v * lanes + 2] = row == 1 ? 1e-9f * static_cast<float>(v) : 0;
+            for (std::size_t v = 0; v < stride + 4; ++v)
+                lane[row][v * lanes + 3] = row == 1 ? 0.01f * static_cast<float>(v) : 0.0f;
+        }
+        for (std::size_t v = 0; v < stride; ++v)
+            for (std::uint32_t axis = 0; axis < 3; ++axis) lane[12 + axis][v * lanes + 3] = axis == 1 ? 1.0f : 0.0f;
+        const float across[] = {0.5f, -0.25f, 1.0f}, up[] = {0.0f, 0.75f, -1.0f}, lift[] = {0.25f, 0.5f, 1.0f};
+        std::vector<float> widths, colours;
+        for (std::size_t v = 0; v < stride; ++v) widths.push_back(dice(v, 50));
+        for (std::size_t i = 0; i < 4 * stride; ++i) colours.push_back(dice(i, 51));
+        std::vector<LineVector> first;
+        atEachLevel([&] {
+            std::vector<LineVector> all;
+            for (std::size_t l = 0; l < lanes; ++l) {
+                std::vector<float> rows(RowArrays::hairs * StrandRows::size(stride));
+                RowArrays from{stride, l / 4 * 4, {}, rows.data()};
+                for (std::size_t row = 0; row < 15; ++row) from.in[row] = lane[row].data();
+                WHORL_PICK(strandRows)(from);
+                for (std::size_t vertices = 2; vertices <= stride; ++vertices) {
+                    const std::size_t members = 1 + vertices % 3, count = members * vertices;
+                    LineVector points(3 * count + 2, -1.0f), normals = points, wide(count + 2, -1.0f),
+                                                             tints(4 * count + 2, -1.0f);
+                    WHORL_PICK(strandMembers)
+                    ({vertices, &rows[l % 4 * StrandRows::size(stride)], members, across, up, lift, widths.data(),
+                      colours.data(), points.data(), normals.data(), wide.data(), tints.data(), l % 2 == 0});
+                    QVERIFY(points[3 * count] == -1.0f && normals[3 * count] == -1.0f && wide[count] == -1.0f &&
+                            tints[4 * count] == -1.0f);
+                    const auto memberAt = [&](std::size_t member, std::size_t v) {
+                        glm::vec3 p(0.0f);
+                        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+                            const auto at = [&](std::uint32_t of) { return lane[3 * of + axis][v * lanes + l]; };
+                            p[static_cast<int>(axis)] =
+                                at(0) + across[member] * at(1) + up[member] * at(2) + lift[member] * at(3);
+                        }
+                        return p;
+                    };
+                    for (std::size_t i = 0; i < count; ++i) {
+                        const std::size_t member = i / vertices, v = i % vertices;
+                        QVERIFY(wide[i] == widths[v] && tints[4 * i] == colours[4 * v] &&
+                                tints[4 * i + 3] == colours[4 * v + 3]);
+                        QCOMPARE(glm::vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]), memberAt(member, v));
+                        const glm::vec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+                        const glm::vec3 way = memberAt(member, v + 1) - memberAt(member, v > 0 ? v - 1 : 0);
+                        QVERIFY(std::abs(glm::length(normal) - 1.0f) < 2e-6f);
+                        if (glm::length(way) > 1e-6f) QVERIFY(std::abs(glm::dot(normal, glm::normalize(way))) < 1e-3f);
+                    }
+                    for (LineVector* values : {&points, &normals, &wide, &tints}) all.push_back(std::move(*values));
+                }
+            }
+            if (first.empty()) first = all;
+            QVERIFY(all == first);
         });
     }
 
