@@ -93,7 +93,7 @@ Result<FieldMesh> FieldMesh::make(std::shared_ptr<const Surface> surface, std::s
         }
     }
     std::ranges::sort(made.pairs);
-    made.pairs.erase(std::ranges::unique(made.pairs).begin(), made.pairs.end());
+    made.pairs.erase(std::unique(made.pairs.begin(), made.pairs.end()), made.pairs.end());
     made.edgeLength = sides > 0 ? lengths / static_cast<double>(sides) : 0.0;
 
     made.smooth.diagonal.assign(made.vertex.size(), ground);

@@ -60,7 +60,7 @@ void FrontSolver::order(std::uint32_t unknowns, std::span<const Pair> pairs) {
             rows[child] = {};
         }
         std::ranges::sort(own);
-        own.erase(std::ranges::unique(own).begin(), own.end());
+        own.erase(std::unique(own.begin(), own.end()), own.end());
         groups[place].places = {place};
         groups[place].rest = own.size();
         if (own.empty()) {

@@ -65,7 +65,7 @@ FrontSolver::FrontSolver(std::uint32_t unknowns, std::span<const Pair> pairs) {
             front.level = std::max(front.level, m_fronts[child].level + 1);
         }
         std::ranges::sort(front.rest);
-        front.rest.erase(std::ranges::unique(front.rest).begin(), front.rest.end());
+        front.rest.erase(std::unique(front.rest.begin(), front.rest.end()), front.rest.end());
         const auto row = [&](std::uint32_t place) { return place < end ? place - front.first : rowOf[place]; };
         for (std::size_t k = 0; k < front.rest.size(); ++k)
             rowOf[front.rest[k]] = front.pivots + static_cast<std::uint32_t>(k);
