@@ -9,7 +9,7 @@
 namespace whorl {
 
 void copyPast(const void* from, void* to, std::size_t bytes) {
-    constexpr std::size_t line = 64, few = 16 * line;
+    constexpr std::size_t line = 64, few = 16 * line, ahead = 16 * line;
     const auto* source = static_cast<const char*>(from);
     auto* target = static_cast<char*>(to);
     const std::size_t head = (line - reinterpret_cast<std::uintptr_t>(target) % line) % line;
@@ -21,6 +21,7 @@ void copyPast(const void* from, void* to, std::size_t bytes) {
     std::memcpy(target, source, head);
     const std::size_t end = head + (bytes - head) / line * line;
     for (std::size_t at = head; at < end; at += line) {
+        quads::fetchOnce(source + at + ahead);
         quads::Quad four[4];
         std::memcpy(four, source + at, line);
         for (std::size_t i = 0; i < 4; ++i)
