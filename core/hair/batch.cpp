@@ -58,8 +58,8 @@ void countHairs(HairParts& parts, const GenerateOptions& options) {
 }
 
 TraitList traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod, Progress& progress,
-                    TraitList old) {
-    TraitList traits = makeTraits(lookup, roots, progress, std::move(old));
+                    TraitList old, bool coloursKnown) {
+    TraitList traits = makeTraits(lookup, roots, progress, std::move(old), coloursKnown);
     if (lod < 1.0f) {
         for (HairTraits& t : traits) widen(t, lod);
     }

@@ -90,9 +90,10 @@ std::size_t mostHairsOfRoot(const Groom& groom);
 /// 0, 1, 2 ... one a hair: for evaluateHairs.
 std::vector<std::uint32_t> allOf(const GrownHairs& grown);
 
-/// Traits of all roots at a level of detail (some left unset when cancelled). `old` gives its memory.
+/// Traits of all roots at a level of detail (some left unset when cancelled). `old` gives its memory and, where
+/// `coloursKnown`, the colours of the same roots.
 TraitList traitsFor(const TraitLookup& lookup, std::span<const HairRoot> roots, float lod, Progress& progress,
-                    TraitList old = {});
+                    TraitList old = {}, bool coloursKnown = false);
 
 /// All of the hair of `batch.roots`, which are in order. Unfinished when cancelled.
 void growBatch(const HairParts& parts, const HairLookups& lookups, float lod, Batch& batch, Progress& progress);

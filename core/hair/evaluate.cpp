@@ -50,12 +50,13 @@ void setStrands(const HairRoot& root, std::uint32_t first, std::uint32_t last, S
 
 }  // namespace
 
-TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress, TraitList old) {
+TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress, TraitList old,
+                     bool coloursKnown) {
     TraitList traits = std::move(old);
     traits.resize(roots.size());
     parallelFor(roots.size(), 1024, [&](std::size_t begin, std::size_t end) {
         if (progress.cancelled()) return;
-        lookup.at(roots.subspan(begin, end - begin), std::span(traits).subspan(begin, end - begin));
+        lookup.at(roots.subspan(begin, end - begin), std::span(traits).subspan(begin, end - begin), coloursKnown);
     });
     return traits;
 }

@@ -40,9 +40,10 @@ struct GrownHairs {
     std::size_t count() const { return roots.size(); }
 };
 
-/// Traits of all roots (some left unset when cancelled). `old` gives its memory.
-TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress,
-                     TraitList old = {});
+/// Traits of all roots (some left unset when cancelled). `old` gives its memory and, where `coloursKnown`, the colours
+/// of the same roots.
+TraitList makeTraits(const TraitLookup& lookup, std::span<const HairRoot> roots, Progress& progress, TraitList old = {},
+                     bool coloursKnown = false);
 
 /// Vertices of the hairs that a root grows; zero where it grows none.
 std::uint32_t verticesOfRoot(const HairSources& sources, std::uint32_t root);

@@ -108,7 +108,9 @@ void KeptHair::regrowAll(const HairParts& parts, const HairLookups& lookups, con
                          Progress& progress) {
     if (changes.bindings)
         m_batch.bindings = bindHairs(parts.groom, parts.index, m_batch.roots, progress, std::move(m_batch.bindings));
-    m_batch.traits = traitsFor(lookups.traits, m_batch.roots, m_wish.lod, progress, std::move(m_batch.traits));
+    const bool coloursKnown = !changes.look && (!changes.lookMaps || changes.lookMaps->empty());
+    m_batch.traits =
+        traitsFor(lookups.traits, m_batch.roots, m_wish.lod, progress, std::move(m_batch.traits), coloursKnown);
     if (changes.clumps) m_batch.centres = centresOf(lookups.chain, parts.clumps, m_batch.roots, progress);
     if (progress.cancelled()) return;
     m_thin.reset();

@@ -129,7 +129,7 @@ TraitLookup::TraitLookup(const Groom& groom, float time)
 
 HairTraits TraitLookup::at(const HairRoot& root) const {
     HairTraits traits{};
-    FrizzPlace place = begin(root, traits);
+    FrizzPlace place = begin(root, traits, false);
     if (place.wanted) {
         perlinVector(place.at.x, place.at.y, place.at.z, traits.frizz);
         endFrizz(root, place, traits);
@@ -137,7 +137,7 @@ HairTraits TraitLookup::at(const HairRoot& root) const {
     return traits;
 }
 
-void TraitLookup::at(std::span<const HairRoot> roots, std::span<HairTraits> traits) const {
+void TraitLookup::at(std::span<const HairRoot> roots, std::span<HairTraits> traits, bool coloursKnown) const {
     constexpr std::size_t most = 64;
     std::array<FrizzPlace, most> frizz;
     std::array<std::uint8_t, most> which;
@@ -146,7 +146,7 @@ void TraitLookup::at(std::span<const HairRoot> roots, std::span<HairTraits> trai
         const std::size_t end = std::min(first + most, roots.size());
         std::size_t count = 0;
         for (std::size_t i = first; i < end; ++i) {
-            const FrizzPlace place = begin(roots[i], traits[i]);
+            const FrizzPlace place = begin(roots[i], traits[i], coloursKnown);
             if (!place.wanted) continue;
             frizz[count] = place;
             which[count] = static_cast<std::uint8_t>(i - first);
@@ -165,9 +165,14 @@ void TraitLookup::at(std::span<const HairRoot> roots, std::span<HairTraits> trai
 }
 
 // All but what frizz takes from noise.
-TraitLookup::FrizzPlace TraitLookup::begin(const HairRoot& root, HairTraits& t) const {
+TraitLookup::FrizzPlace TraitLookup::begin(const HairRoot& root, HairTraits& t, bool coloursKnown) const {
     const Entry& e = m_groups[root.group];
-    t = HairTraits{};
+    HairTraits empty{};
+    if (coloursKnown) {
+        std::copy_n(t.rootColour, 4, empty.rootColour);
+        std::copy_n(t.tipColour, 4, empty.tipColour);
+    }
+    t = empty;
     t.cut = e.cut.at(root.uv);
     t.scale = e.scale.at(root.uv);
     if (const float spoilt = e.randomScale.at(root.uv); spoilt > 0.0f)
@@ -176,7 +181,7 @@ TraitLookup::FrizzPlace TraitLookup::begin(const HairRoot& root, HairTraits& t) 
     t.rootWidth = e.rootThickness.at(root.uv);
     t.thickness = t.rootWidth;
     t.tipWidth = e.tipThickness.at(root.uv);
-    setColours(e, root, t);
+    if (!coloursKnown) setColours(e, root, t);
     t.kinkRoot = e.kinkRoot.at(root.uv);
     t.kinkTip = e.kinkTip.at(root.uv);
     if (t.kinkRoot > 0.0f || t.kinkTip > 0.0f) {

@@ -37,8 +37,8 @@ public:
 
     /// Every number is finite and inside its parameter's range, whatever the maps hold.
     HairTraits at(const HairRoot& root) const;
-    /// The same for many roots.
-    void at(std::span<const HairRoot> roots, std::span<HairTraits> traits) const;
+    /// The same for many roots. `coloursKnown`: those in `traits` are theirs already, and stay.
+    void at(std::span<const HairRoot> roots, std::span<HairTraits> traits, bool coloursKnown = false) const;
     /// Those of the middle of a lock: scale and displacement without anything random, nothing else.
     HairTraits lockAt(const HairRoot& root) const;
     /// Where kink noise starts: depends on the seed only.
@@ -87,7 +87,7 @@ private:
         float own = 0.0f;  ///< share of the hair's own random vector
         glm::vec3 at{0.0f};
     };
-    FrizzPlace begin(const HairRoot& root, HairTraits& traits) const;
+    FrizzPlace begin(const HairRoot& root, HairTraits& traits, bool coloursKnown) const;
     FrizzPlace frizzPlace(const Entry& entry, const HairRoot& root, HairTraits& traits) const;
     void endFrizz(const HairRoot& root, const FrizzPlace& place, HairTraits& traits) const;
     void animateFrizz(const Entry& entry, const HairRoot& root, const glm::vec3& place, float own,
