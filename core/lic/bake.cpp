@@ -164,12 +164,12 @@ Result<LicBake> bakeLic(const Groom& groom, std::shared_ptr<const Surface> surfa
             bake.opacity[i] = static_cast<float>((*texture->cover)[i]) / 255.0f;
             // Bare skin has the colour of the hair around it, for filters at the border.
             const float tone = bake.opacity[i] > 0.0f ? licTone(value, texture->mean, texture->deviation) : 0.0f;
-            const float shade = 1.0f + params.contrast * tone;
-            for (int c = 0; c < 3; ++c) {
-                const auto colour =
-                    static_cast<float>((*texture->colours)[3 * i + static_cast<std::size_t>(c)]) / 255.0f;
-                bake.colour[i][c] = linearFromSrgb(colour) * std::max(shade, 0.0f);
-            }
+            const float shade = std::max(1.0f + params.contrast * tone, 0.0f);
+            glm::vec3 own;
+            for (int c = 0; c < 3; ++c)
+                own[c] = linearFromSrgb(static_cast<float>((*texture->colours)[3 * i + static_cast<std::size_t>(c)]) /
+                                        255.0f);
+            bake.colour[i] = licColour(own, texture->mean) * shade;
             if (!(bake.opacity[i] > 0.0f)) continue;
             bake.height[i] = params.height * value;
             const auto frame = tangentFrame(mesh, places[i]);

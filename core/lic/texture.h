@@ -43,4 +43,8 @@ struct LicTexture {
 /// -1 to 1, 0 at the mean: steep around it, flat towards the ends. Colour is multiplied by 1 + contrast * tone.
 float licTone(float light, float mean, float deviation);
 
+/// Colour of the hairs of tone 0, linear, for a share of white from 0 to 1: with half of it their own, with less they
+/// are darker, with more they go grey and white.
+glm::vec3 licColour(const glm::vec3& own, float white);
+
 }  // namespace whorl

@@ -73,7 +73,7 @@ LicHair licHair(vec2 uv, vec3 tangentIn, int triangle, vec3 n, vec3 toEye) {
     // Where a parting crosses a triangle, what lies between two directions is none that any hair has.
     hair.agreed = smoothstep(0.5, 0.92, size);
     hair.cover = size > 1e-4 ? texel.b : 0.0;
-    // Share of white: half of it is the hair's own colour; less is darker, more goes grey and white.
+    // Share of white: half of it is the hair's own colour; less is darker, more goes grey and white (licColour).
     float white = licTone.z;
     float grey = smoothstep(0.5, 1.0, white);
     hair.colour = mix(own * mix(0.22, 1.0, min(white * 2.0, 1.0)), vec3(0.62, 0.60, 0.57) + 0.2 * own, grey * grey);

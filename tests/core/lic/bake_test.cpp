@@ -290,6 +290,20 @@ private Q_SLOTS:
             QVERIFY(even.colour[i].y > 0.0f && even.colour[i].x / even.colour[i].y > 1.5f);
         }
         QVERIFY(low < 0.002f && high > 0.003f && high <= 0.005f);
+        // Half white is the hair's own colour; less is darker, all of it white, as the view shows it.
+        const auto mean = [](const LicBake& bake) {
+            glm::vec3 sum(0.0f);
+            for (const glm::vec3& texel : bake.colour) sum += texel;
+            return sum / static_cast<float>(bake.colour.size());
+        };
+        QVERIFY(glm::distance(mean(even), glm::vec3(0.4f, 0.2f, 0.1f)) < 0.03f);
+        lic.white = 0.25f;
+        const glm::vec3 dark = mean(scene.bake({.size = 64, .margin = 0}));
+        QVERIFY(glm::distance(dark, 0.61f * mean(even)) < 0.005f);
+        lic.white = 1.0f;
+        const glm::vec3 white = mean(scene.bake({.size = 64, .margin = 0}));
+        QVERIFY(white.z > 0.5f && white.x < 1.2f * white.z);
+        lic.white = 0.5f;
         lic.contrast = 1.0f;
         lic.opacity.value = 0.5f;
         const LicBake thin = scene.bake({.size = 64, .margin = 0});
