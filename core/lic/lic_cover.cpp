@@ -48,6 +48,8 @@ LicCover::LicCover(const TexelAtlas& atlas) : m_atlas(atlas) {
         m_beyond.push_back({there, jump.slot});
     }
     std::sort(m_beyond.begin(), m_beyond.end());
+    m_marks.assign(count, 0);
+    for (const auto& pair : m_beyond) m_marks[pair[0]] = joined;
 }
 
 glm::vec3 LicCover::position(std::uint32_t slot) const {
@@ -99,6 +101,7 @@ void LicCover::forNeighbours(std::uint32_t slot, Visit&& visit) const {
         const auto there = static_cast<std::uint32_t>(texel + (n / 3 - 1) * m_atlas.side() + n % 3 - 1);
         if (n != 4 && m_atlas.slotOf(there) != TexelAtlas::none) visit(m_atlas.slotOf(there));
     }
+    if ((m_marks[slot] & joined) == 0) return;
     const auto from = std::lower_bound(m_beyond.begin(), m_beyond.end(), std::array{slot, 0u});
     for (auto pair = from; pair != m_beyond.end() && (*pair)[0] == slot; ++pair) visit((*pair)[1]);
 }
@@ -109,24 +112,32 @@ void LicCover::setBorder(float metres, const std::vector<std::uint8_t>& blocks) 
     const auto hops = static_cast<int>(borderReach(metres));
     std::vector<std::uint8_t> window = blocks;
     if (hops > 0) m_atlas.spread(window, static_cast<float>(hops), true);
-    const auto inWindow = [&](std::uint32_t slot) { return window[m_atlas.blockOf(m_atlas.slots()[slot].texel)] != 0; };
-    std::vector<Near> edge, next;
-    std::vector<std::uint32_t> touched;
+    std::vector<std::array<std::uint32_t, 2>> runs;  // of slots
     for (std::size_t b = 0; b < window.size() && hops > 0; ++b) {
-        if (!window[b]) continue;
-        for (std::uint32_t i = m_atlas.firstSlot(b); i < m_atlas.firstSlot(b + 1); ++i) {
-            if (m_density[i] != 0) continue;
-            bool border = false;
-            forNeighbours(i, [&](std::uint32_t n) { border = border || m_density[n] != 0; });
-            if (border) edge.push_back({i, i});
-        }
+        if (!window[b] || m_atlas.firstSlot(b) == m_atlas.firstSlot(b + 1)) continue;
+        runs.push_back({m_atlas.firstSlot(b), m_atlas.firstSlot(b + 1)});
+        for (std::uint32_t i = runs.back()[0]; i < runs.back()[1]; ++i) m_marks[i] |= looked;
     }
+    std::vector<std::vector<Near>> edges(runs.size());
+    parallelFor(runs.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = first; r < last; ++r) {
+            for (std::uint32_t i = runs[r][0]; i < runs[r][1]; ++i) {
+                if (m_density[i] != 0) continue;
+                bool border = false;
+                forNeighbours(i, [&](std::uint32_t n) { border = border || m_density[n] != 0; });
+                if (border) edges[r].push_back({i, i});
+            }
+        }
+    });
+    std::vector<Near> edge, next;
+    for (const auto& some : edges) edge.insert(edge.end(), some.begin(), some.end());
+    std::vector<std::uint32_t> touched;
     for (int hop = 0; hop < hops && !edge.empty(); ++hop) {
         next.clear();
         for (const Near& near : edge) {
             const glm::vec3 source = position(near.source);
             forNeighbours(near.slot, [&](std::uint32_t n) {
-                if (m_density[n] == 0 || !inWindow(n)) return;
+                if (m_density[n] == 0 || (m_marks[n] & looked) == 0) return;
                 const float distance = glm::distance(position(n), source);
                 if (!(distance < metres)) return;
                 const std::uint32_t known = m_source[n];
@@ -151,6 +162,8 @@ void LicCover::setBorder(float metres, const std::vector<std::uint8_t>& blocks) 
             m_border[i] = m_source[i] == TexelAtlas::none ? 255 : byteOf(reachingBorder(m_distance[i] / metres));
     }
     for (const std::uint32_t slot : touched) m_source[slot] = TexelAtlas::none;
+    for (const auto& run : runs)
+        for (std::uint32_t i = run[0]; i < run[1]; ++i) m_marks[i] &= joined;
 }
 
 void LicCover::setRanks(float deviation) {

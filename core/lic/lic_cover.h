@@ -40,6 +40,7 @@ private:
     struct Near {
         std::uint32_t slot, source;
     };
+    static constexpr std::uint8_t joined = 1, looked = 2;
     template <class Visit>
     void forNeighbours(std::uint32_t slot, Visit&& visit) const;
     glm::vec3 position(std::uint32_t slot) const;
@@ -49,6 +50,7 @@ private:
     std::vector<std::uint8_t> m_opacity;
     std::vector<std::uint8_t> m_border;                  // share of hairs that reach this near to the border
     std::vector<std::array<std::uint32_t, 2>> m_beyond;  // slots that stand for the same place, both ways
+    std::vector<std::uint8_t> m_marks;                   // joined: in m_beyond; looked: in the window of setBorder
     std::vector<std::uint32_t> m_source;                 // nearest place without hair, while it is looked for
     std::vector<float> m_distance;
     std::array<std::uint8_t, 256> m_ranks{};

@@ -170,7 +170,11 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
     LicBlocks grown(stale.light.size());
     if (anyOf(stale.density)) s.cover.setDensity(groom, field, stale.density, grown);
     LicChanges::add(grown, stale.light);
-    LicChanges::add(grown, stale.cover);
+    if (!fresh && anyOf(grown)) {
+        s.atlas.spread(grown, s.cover.borderReach(groom.lic->border) + 1.0f, true);
+        LicChanges::add(grown, stale.border);
+        LicChanges::add(grown, stale.cover);
+    }
     if (anyOf(stale.border)) s.cover.setBorder(groom.lic->border, stale.border);
     if (anyOf(stale.opacity))
         s.cover.setOpacity(groom.lic->opacity, mapOf(groom, groom.lic->opacity.map), stale.opacity);

@@ -70,8 +70,6 @@ LicStale LicPainter::State::staleAgainst(const Groom& now, const DirectionField&
     }
     LicChanges::add(stale.lengths, stale.light);
     if (next.weights != plan.weights || next.steps != plan.steps) LicChanges::addAll(stale.light);
-    LicChanges::add(stale.density, stale.border);
-    if (anyOf(stale.border)) atlas.spread(stale.border, cover.borderReach(is.border) + 1.0f, true);
     if (is.border != was.border) LicChanges::addAll(stale.border);
     if (is.opacity.value != was.opacity.value) LicChanges::addAll(stale.opacity);
     changes.addMap(groom, was.opacity.map, now, is.opacity.map, stale.opacity);

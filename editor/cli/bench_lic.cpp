@@ -6,6 +6,7 @@
 #include "core/field/growing_area.h"
 #include "core/lic/painter.h"
 #include "core/lic/reference.h"
+#include "core/sampling/density.h"
 #include "editor/cli/bench_grooms.h"
 
 #include <glm/geometric.hpp>
@@ -59,10 +60,11 @@ struct Scene {
     Groom groom;
     std::shared_ptr<const Surface> surface;
     DirectionField field, other;  ///< downwards; aslant
+    glm::vec2 dab{0.5f};          ///< where hair grows
 };
 
 Scene sceneOf(std::string name, Groom groom) {
-    Scene scene{std::move(name), std::move(groom), nullptr, {}, {}};
+    Scene scene{std::move(name), std::move(groom), nullptr, {}, {}, {}};
     scene.surface = std::make_shared<const Surface>(scene.groom.mesh);
     Progress progress;
     const auto solver =
@@ -71,6 +73,13 @@ Scene sceneOf(std::string name, Groom groom) {
     scene.field = solver->defaults(params);
     params.gravity.value = {0.2f, -1.0f, 0.1f};
     scene.other = solver->defaults(params);
+    const SurfaceMesh& mesh = *scene.groom.mesh;
+    const DensityLookup density(scene.groom);
+    for (std::uint32_t i = 0; i < mesh.triangleCount(); ++i) {
+        const auto t = static_cast<std::uint32_t>((i + mesh.triangleCount() / 3) % mesh.triangleCount());
+        scene.dab = uvAt(mesh, {t, 1.0f / 3.0f, 1.0f / 3.0f});
+        if (scene.field.grows()[t] && density.at(t, scene.dab) > 0.5f * density.scale()) break;
+    }
     for (const char* map : {"dab density", "dab length", "dab grain"})
         scene.groom.maps.set(map, Map(1024, 1024, 1, TexelFormat::U8, 1.0f));
     return scene;
@@ -200,22 +209,15 @@ private:
     std::vector<SurfacePoint> m_timed;
 };
 
-// A square of the map that is the middle of a growing triangle becomes dark, or light again.
-void dab(Groom& groom, const char* name, bool dark) {
-    const SurfaceMesh& mesh = *groom.mesh;
-    glm::vec2 uv(0.5f);
-    for (std::size_t t = mesh.triangles.size() / 3; t < mesh.triangles.size(); ++t) {
-        uv = (mesh.cornerUvs[t * 3] + mesh.cornerUvs[t * 3 + 1] + mesh.cornerUvs[t * 3 + 2]) / 3.0f;
-        const Map* density = groom.maps.find("density");
-        if (!density || density->sample(uv) > 0.5f) break;
-    }
+// A square of the map becomes dark, or light again.
+void dab(Groom& groom, const char* name, const Scene& scene, bool dark, float darkness = 0.6f) {
     Map& map = *groom.maps.edit(name);
-    const glm::vec2 middle = map.texelFromUv(uv);
+    const glm::vec2 middle = map.texelFromUv(scene.dab);
     for (int y = -20; y <= 20; ++y) {
         for (int x = -20; x <= 20; ++x) {
             const int column = std::clamp(static_cast<int>(middle.x) + x, 0, map.width() - 1);
             const int line = std::clamp(static_cast<int>(middle.y) + y, 0, map.height() - 1);
-            map.setTexel(column, line, 0, dark ? 0.6f : 1.0f);
+            map.setTexel(column, line, 0, dark ? darkness : 1.0f);
         }
     }
 }
@@ -224,26 +226,30 @@ void addDabs(LicBench& bench, const Scene& scene, std::vector<BenchRow>& rows) {
     constexpr double dabTexels = 41.0 * 41.0;
     rows.push_back(bench.row("dab of length", 2, dabTexels, [&](Groom& groom, bool flip) {
         groom.lic.edit().length.map = "dab length";
-        dab(groom, "dab length", flip);
+        dab(groom, "dab length", scene, flip);
         return &scene.field;
     }));
     rows.push_back(bench.row("dab of opacity", 2, dabTexels, [&](Groom& groom, bool flip) {
         groom.lic.edit().length.map.clear();
         groom.lic.edit().opacity.map = "dab density";
-        dab(groom, "dab density", flip);
+        dab(groom, "dab density", scene, flip);
         return &scene.field;
     }));
-    rows.push_back(bench.row("dab of density", 2, dabTexels, [&](Groom& groom, bool flip) {
-        groom.lic.edit().opacity.map.clear();
-        if (groom.groups->front().params.general.density.map != "dab density")
-            groom.groups.edit().front().params.general.density.map = "dab density";
-        dab(groom, "dab density", flip);
-        return &scene.field;
-    }));
+    for (const float darkness : {0.6f, 0.0f}) {
+        const char* what = darkness > 0.0f ? "dab of density" : "dab that takes all hair away";
+        rows.push_back(bench.row(what, 2, dabTexels, [&](Groom& groom, bool flip) {
+            groom.lic.edit().opacity.map.clear();
+            if (groom.groups->front().params.general.density.map != "dab density") {
+                for (Group& group : groom.groups.edit()) group.params.general.density.map = "dab density";
+            }
+            dab(groom, "dab density", scene, flip, darkness);
+            return &scene.field;
+        }));
+    }
     rows.push_back(bench.row("dab of grain", 2, dabTexels, [&](Groom& groom, bool flip) {
-        groom.groups.edit().front().params.general.density = scene.groom.groups->front().params.general.density;
+        groom.groups = scene.groom.groups;
         groom.lic.edit().grain.map = "dab grain";
-        dab(groom, "dab grain", flip);
+        dab(groom, "dab grain", scene, flip);
         return &scene.field;
     }));
 }
