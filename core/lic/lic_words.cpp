@@ -56,6 +56,7 @@ TriangleSteps stepsOf(const SurfaceMesh& mesh, std::span<const glm::vec3> direct
 LicWords::LicWords(const TexelAtlas& atlas) : m_atlas(atlas) {
     m_words.assign(static_cast<std::size_t>(atlas.side()) * static_cast<std::size_t>(atlas.side()), lic_word::end);
     m_words[0] = 0;
+    m_longest.assign(atlas.blockCount(), 0);
     setPartings({});
 }
 
@@ -134,18 +135,20 @@ void LicWords::setPartings(std::span<const Parting> partings) {
     for (std::size_t i = 1; i < m_firstSpecial.size(); ++i) m_firstSpecial[i] += m_firstSpecial[i - 1];
 }
 
-void LicWords::setStep(std::uint32_t slot, glm::vec2 step, float longest) {
+// How far it leads, 1/512 texel.
+int LicWords::setStep(std::uint32_t slot, glm::vec2 step, float longest) {
     const std::uint32_t texel = m_atlas.slots()[slot].texel;
     std::uint32_t& word = m_words[texel];
     const bool moves = std::isfinite(step.x) && std::isfinite(step.y);
     if (!moves) {
         word = (word & lic_word::noise) | lic_word::end;
-        return;
+        return 0;
     }
+    const auto reach = [](const glm::ivec2& fixed) { return std::max(std::abs(fixed.x), std::abs(fixed.y)); };
     if (!m_special[slot]) {
         const glm::ivec2 fixed = fixedStep(step, longest);
         word = (word & lic_word::noise) | bitsOf(fixed.x) << 20 | bitsOf(fixed.y) << 8;
-        return;
+        return reach(fixed);
     }
     const std::uint32_t first = m_firstSpecial[texel / lic_word::segment];
     const auto at = std::lower_bound(m_specialTexels.begin() + first, m_specialTexels.end(), texel);
@@ -154,6 +157,14 @@ void LicWords::setStep(std::uint32_t slot, glm::vec2 step, float longest) {
     m_specials[number].stepX = fixed.x;
     m_specials[number].stepY = fixed.y;
     word = (word & lic_word::noise) | lic_word::mark | (number - first) << 8;
+    return reach(fixed);
+}
+
+float LicWords::longestStep(std::span<const std::uint8_t> blocks) const {
+    int most = 0;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (blocks[b]) most = std::max(most, m_longest[b]);
+    return static_cast<float>(most) / static_cast<float>(lic_word::one);
 }
 
 void LicWords::setSteps(const DirectionField& field, const LicPlan& plan, std::span<const std::uint8_t> blocks) {
@@ -169,6 +180,8 @@ void LicWords::stepsOfBlock(const DirectionField& field, const LicPlan& plan, st
     const std::span<const std::uint8_t> grows = field.grows();
     const glm::vec2 nowhere(NAN);
     TriangleSteps steps{};
+    int& longest = m_longest[block];
+    longest = 0;
     std::uint32_t known = TexelAtlas::none;
     for (std::uint32_t i = m_atlas.firstSlot(block); i < m_atlas.firstSlot(block + 1); ++i) {
         const TexelAtlas::Slot& slot = m_atlas.slots()[i];
@@ -195,8 +208,8 @@ void LicWords::stepsOfBlock(const DirectionField& field, const LicPlan& plan, st
             continue;
         }
         const float metres = plan.stepMetres / length;
-        setStep(i, glm::vec2(glm::dot(direction, steps.texels.x), glm::dot(direction, steps.texels.y)) * metres,
-                plan.longestStep);
+        const glm::vec2 step(glm::dot(direction, steps.texels.x), glm::dot(direction, steps.texels.y));
+        longest = std::max(longest, setStep(i, step * metres, plan.longestStep));
     }
 }
 

@@ -26,18 +26,21 @@ public:
     /// False where no hair lies.
     bool grows(std::uint32_t slot) const { return m_words[m_atlas.slots()[slot].texel] >> 8 != lic_word::end >> 8; }
     ConvolveArrays arrays(const LicPlan& plan) const;
+    /// Texels that a step in one of the marked blocks (one a block) leads on at most, to the right or down.
+    float longestStep(std::span<const std::uint8_t> blocks) const;
 
 private:
     void findParted();
     void stepsOfBlock(const DirectionField& field, const LicPlan& plan, std::size_t block);
     void noiseOfBlock(const LicPlan& plan, std::uint32_t seed, const Map* grainMap, std::size_t block);
-    void setStep(std::uint32_t slot, glm::vec2 step, float longest);
+    int setStep(std::uint32_t slot, glm::vec2 step, float longest);
 
     const TexelAtlas& m_atlas;
     PlainVector<std::uint32_t> m_words;
     PartingIndex m_partings;
     std::vector<std::uint8_t> m_nearParting;  // one a triangle; empty: none is
     std::vector<std::uint8_t> m_special;      // one a slot
+    std::vector<int> m_longest;               // one a block: of its steps, 1/512 texel
     std::vector<std::uint32_t> m_firstSpecial;
     std::vector<std::uint32_t> m_specialTexels;
     std::vector<lic_word::Special> m_specials;

@@ -61,7 +61,11 @@ LicStale LicPainter::State::staleAgainst(const Groom& now, const DirectionField&
     if (anyOf(stale.steps) || anyOf(stale.noise)) {
         LicChanges::add(stale.steps, stale.light);
         LicChanges::add(stale.noise, stale.light);
-        atlas.spread(stale.light, next.longestStep * static_cast<float>(next.steps), false);
+        // No streamline is longer than the steps around allow; a texel for what rounding adds.
+        LicBlocks around = stale.light;
+        const auto steps = static_cast<float>(next.steps);
+        atlas.spread(around, next.longestStep * steps, false);
+        atlas.spread(stale.light, std::min(words.longestStep(around), next.longestStep) * steps + 1.0f, false);
         // Streamlines that come there over a seam: so far they have gone as they went last time.
         const LicBlocks near = stale.light;
         for (std::size_t b = 0; b < landings.size(); ++b)
