@@ -13,7 +13,8 @@
 namespace whorl {
 namespace {
 
-constexpr int mostHops = 48;
+// The most steps from texel to texel that a border has an effect over: what a dab of paint makes again stays bounded.
+constexpr int mostHops = 512;
 constexpr std::size_t blocksAtOnce = 16;
 // How fast a hair ends where it ranks too low: over a quarter of the ranks.
 constexpr int sharpness = 4;
@@ -37,6 +38,7 @@ LicCover::LicCover(const TexelAtlas& atlas) : m_atlas(atlas) {
     m_border.assign(count, 255);
     m_source.assign(count, TexelAtlas::none);
     m_distance.assign(count, 0.0f);
+    m_hop.assign(count, 0);
     for (const TexelAtlas::Jump& jump : atlas.jumps()) {
         const auto limit = static_cast<float>(atlas.side());
         if (!(jump.to[0] >= 0.0f && jump.to[1] >= 0.0f && jump.to[0] < limit && jump.to[1] < limit)) continue;
@@ -144,7 +146,10 @@ void LicCover::setBorder(float metres, const std::vector<std::uint8_t>& blocks) 
                 if (known != TexelAtlas::none &&
                     (m_distance[n] < distance || (m_distance[n] == distance && known <= near.source)))
                     return;
-                if (known == TexelAtlas::none) touched.push_back(n);
+                if (known == TexelAtlas::none) {
+                    touched.push_back(n);
+                    m_hop[n] = static_cast<std::uint16_t>(hop + 1);
+                }
                 m_source[n] = near.source;
                 m_distance[n] = distance;
                 next.push_back({n, 0});
@@ -156,10 +161,14 @@ void LicCover::setBorder(float metres, const std::vector<std::uint8_t>& blocks) 
         for (Near& near : next) near.source = m_source[near.slot];
         std::swap(edge, next);
     }
+    // Where texels are so fine that the steps end before the border does, it ends with them: nowhere at once.
+    const auto most = static_cast<float>(hops);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (!blocks[b]) continue;
-        for (std::uint32_t i = m_atlas.firstSlot(b); i < m_atlas.firstSlot(b + 1); ++i)
-            m_border[i] = m_source[i] == TexelAtlas::none ? 255 : byteOf(reachingBorder(m_distance[i] / metres));
+        for (std::uint32_t i = m_atlas.firstSlot(b); i < m_atlas.firstSlot(b + 1); ++i) {
+            const float way = std::max(m_distance[i] / metres, static_cast<float>(m_hop[i]) / most);
+            m_border[i] = m_source[i] == TexelAtlas::none ? 255 : byteOf(reachingBorder(way));
+        }
     }
     for (const std::uint32_t slot : touched) m_source[slot] = TexelAtlas::none;
     for (const auto& run : runs)

@@ -53,6 +53,7 @@ private:
     std::vector<std::uint8_t> m_marks;                   // joined: in m_beyond; looked: in the window of setBorder
     std::vector<std::uint32_t> m_source;                 // nearest place without hair, while it is looked for
     std::vector<float> m_distance;
+    std::vector<std::uint16_t> m_hop;  // steps from texel to texel after which it was found
     std::array<std::uint8_t, 256> m_ranks{};
 };
 

@@ -107,6 +107,9 @@ Result<Groom> swatchGroom(Progress& progress) {
                        return ramp(p.y, 0.50f, 0.56f) * ramp(p.y, 0.93f, 0.87f) * ramp(p.x, 0.08f, 0.14f) *
                               ramp(p.x, 0.92f, 0.86f);
                    }));
+    groom.maps.set("patch", frontMap([](glm::vec2 p) {
+                       return std::abs(p.x - 0.5f) < 0.4f && std::abs(p.y - 0.7f) < 0.2f ? 1.0f : 0.0f;
+                   }));
     groom.maps.set("ramp", frontMap([](glm::vec2 p) { return p.x; }));
     groom.maps.set("spots", frontMap([](glm::vec2 p) {
                        const float waves = std::sin(p.x * 18.85f) * std::sin(p.y * 18.85f);

@@ -496,6 +496,64 @@ private Q_SLOTS:
         for (int x = 129; x < 256; ++x) QCOMPARE(int{(*sharp.cover)[static_cast<std::size_t>(100 * 256 + x)]}, 0);
     }
 
+    void theBorderIsAsWideAsAsked_data() {
+        QTest::addColumn<int>("size");
+        QTest::addColumn<bool>("uneven");
+        for (const int size : {256, 1024})
+            for (const bool uneven : {false, true})
+                QTest::addRow("%d texels%s", size, uneven ? ", a corner of them finer" : "") << size << uneven;
+    }
+
+    // Over far more texels than hairs are long, hair thins out without a step, at any size of texture.
+    void theBorderIsAsWideAsAsked() {
+        QFETCH(int, size);
+        QFETCH(bool, uneven);
+        constexpr float width = 0.08f;  // of 0.2 m
+        SurfaceMesh mesh = testing::plane(40, 0.2f);
+        if (uneven) {
+            // A band along the border takes three times the texels of the rest, across.
+            for (glm::vec2& uv : mesh.cornerUvs)
+                uv.x = uv.x < 0.45f ? uv.x * 0.8f : uv.x < 0.5f ? 0.36f + (uv.x - 0.45f) * 2.4f : 0.48f + (uv.x - 0.5f);
+        }
+        Scene scene(std::move(mesh), {{{-0.08f, 0, 0}, {0.08f, 0, 0.02f}}});
+        Map density(256, 8, 1, TexelFormat::U8, 1.0f);
+        const float middle = uneven ? 0.48f : 0.5f;
+        for (int y = 0; y < 8; ++y)
+            for (int x = static_cast<int>(middle * 256.0f); x < 256; ++x) density.setTexel(x, y, 0, 0.0f);
+        scene.groom.maps.set("density", density);
+        scene.groom.groups.edit()[0].params.general.density.map = "density";
+        scene.lic().border = width;
+        scene.lic().grain.value = 0.002f;
+        scene.solve();
+        const LicPainter painter = painterFor(scene, size);
+        // Mean cover by how far from the border, in forty steps over 0.09 m, of three coats.
+        std::vector<double> sums(40, 0.0);
+        std::vector<int> counts(40, 0);
+        for (const int seed : {1, 2, 3}) {
+            scene.lic().seed = seed;
+            const LicTexture texture = painted(painter, scene);
+            for (const TexelAtlas::Slot& slot : painter.atlas().slots()) {
+                const auto texel = texelOf(painter, slot);
+                const float away = -positionAt(scene.surface->mesh(), slot.point()).x;
+                const auto step = static_cast<std::size_t>(std::max(away, 0.0f) / 0.09f * 40.0f);
+                if (!texel || away <= 0.0f || step >= 40) continue;
+                sums[step] += (*texture.cover)[*texel] / 255.0;
+                ++counts[step];
+            }
+        }
+        double before = 0.0;
+        for (std::size_t k = 1; k < 40; ++k) {
+            const double cover = sums[k] / counts[k];
+            const double way = std::min((static_cast<double>(k) + 0.5) / 40.0 * 0.09 / double{width}, 1.0);
+            const double expected = 1.0 - (1.0 - way) * (1.0 - way);
+            const QString said = QString("step %1: %2 for %3 after %4").arg(k).arg(cover).arg(expected).arg(before);
+            QVERIFY2(k == 1 || std::abs(cover - before) < 0.15, qPrintable(said));
+            QVERIFY2(uneven || std::abs(cover - expected) < 0.1, qPrintable(said));
+            before = cover;
+        }
+        QVERIFY(before > 0.97);
+    }
+
     void densityAndOpacityAreCoverage() {
         Scene scene(testing::plane(10, 0.2f), {{{-0.08f, 0, 0}, {0.08f, 0, 0.02f}}});
         scene.lic().grain.value = 0.0016f;
