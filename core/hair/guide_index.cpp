@@ -72,7 +72,7 @@ GuideIndex::GuideIndex(const Groom& groom) : m_partings(*groom.mesh, *groom.part
     }
 }
 
-GuideIndex::GuideIndex(std::vector<GuideRoot> roots, const GuideIndex&) {
+GuideIndex::GuideIndex(std::vector<GuideRoot> roots, const GuideIndex& like) : m_partings(like.m_partings) {
     m_trees.push_back(std::make_unique<Tree>());
     Tree& tree = *m_trees.back();
     tree.cloud.roots = std::move(roots);

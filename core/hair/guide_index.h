@@ -41,7 +41,7 @@ public:
     GuideIndex();
     /// Guides of groups that the groom does not have are left out.
     explicit GuideIndex(const Groom& groom);
-    /// Other roots, all of group 0, among what else there is for the guides of `like`.
+    /// Other roots, all of group 0, kept apart by the partings of `like`.
     GuideIndex(std::vector<GuideRoot> roots, const GuideIndex& like);
     ~GuideIndex();
     GuideIndex(GuideIndex&&) noexcept;
