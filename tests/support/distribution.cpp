@@ -145,6 +145,21 @@ double FineBins::chiSquareExcess() const {
     return testing::chiSquareExcess(expected, m_found);
 }
 
+double FineBins::chiSquarePerBin(double pooled) const {
+    const double found = std::accumulate(m_found.begin(), m_found.end(), 0.0);
+    double sum = 0.0, expected = 0.0, here = 0.0;
+    int bins = 0;
+    for (std::size_t i = 0; i < m_weights.size(); ++i) {
+        expected += m_weights[i] * found / m_total;
+        here += m_found[i];
+        if (expected < pooled) continue;
+        sum += (here - expected) * (here - expected) / expected;
+        ++bins;
+        expected = here = 0.0;
+    }
+    return bins > 0 ? sum / bins : 1e9;
+}
+
 Groom densityGroom(SurfaceMesh mesh, Map map) {
     Groom groom = makeGroom(std::move(mesh));
     groom.maps.set("density", std::move(map));

@@ -29,6 +29,9 @@ public:
     std::uint64_t foundWhereNothingGrows() const;
     std::uint64_t foundOn(std::size_t triangle) const;
     double chiSquareExcess() const;
+    /// Chi-square over the number of bins, each pooled until `pooled` roots are expected: 1 by chance, less where roots
+    /// are more even, and (share by which bins are off)^2 x `pooled` more where they are not where they should be.
+    double chiSquarePerBin(double pooled) const;
 
 private:
     std::vector<int> m_depths;            // by triangle
