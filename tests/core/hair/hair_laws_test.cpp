@@ -6,7 +6,6 @@
 #include "core/hair/generate.h"
 #include "core/hair/reference.h"
 #include "core/io/document.h"
-#include "core/param/path.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -274,63 +273,6 @@ private Q_SLOTS:
                 }
             }
         }
-    }
-
-    // A number with a map that is 0.5 everywhere is half of the number: each listens to its own map, and no other does.
-    void everyParameterListensToItsOwnMap() {
-        Groom base = everything(2);
-        for (Group& group : base.groups.edit()) {
-            // Nothing that takes other parameters' place or leaves them without effect.
-            group.params.strands.hairs = 3;
-            group.params.general.keepOutside = false;
-            group.params.general.skipThreshold = 0.0f;
-        }
-        base.maps.set("grey", Map(4, 4, 1, TexelFormat::F32, 0.5f));
-        base.maps.set("tint", Map(4, 4, 3, TexelFormat::F32, 0.5f));
-        std::vector<std::string> paths;
-        for (const std::string& path : groomPaths(base)) {
-            // Density places roots: see the sampler's tests.
-            if (!path.starts_with("groups/") || path.ends_with("/density")) continue;
-            if (!groomValue(base, path + "/map").ok()) continue;
-            QVERIFY(setGroomValue(base, path + "/map", std::string()).ok());
-            // Thick hairs are those above the group's own number, whatever that is.
-            if (path.ends_with("/by_thickness")) QVERIFY(setGroomValue(base, path, 0.0).ok());
-            paths.push_back(path);
-        }
-        const Strands without = grown(base);
-        QVERIFY(without.count() > 300);
-        const auto same = [](const Strands& a, const Strands& b) {
-            if (a.firstVertex != b.firstVertex) return false;
-            for (std::size_t v = 0; v < a.vertexCount(); ++v) {
-                if (glm::distance(a.positions[v], b.positions[v]) > 1e-6f ||
-                    std::abs(a.widths[v] - b.widths[v]) > 1e-8f || glm::distance(a.colours[v], b.colours[v]) > 1e-5f)
-                    return false;
-            }
-            return true;
-        };
-        int heard = 0, still = 0;
-        for (const std::string& path : paths) {
-            ParamValue value = *groomValue(base, path);
-            bool zero = true;
-            if (double* number = std::get_if<double>(&value)) {
-                zero = *number == 0.0;
-                *number *= 0.5;
-            } else if (glm::vec3* vector = std::get_if<glm::vec3>(&value)) {
-                zero = *vector == glm::vec3(0.0f);
-                *vector *= 0.5f;
-            }
-            Groom half = base, mapped = base;
-            if (zero || !setGroomValue(half, path, value).ok()) continue;  // or below the least that may be set
-            const char* map = path.ends_with("/colour/root") || path.ends_with("/colour/tip") ? "tint" : "grey";
-            QVERIFY2(setGroomValue(mapped, path + "/map", std::string(map)).ok(), path.c_str());
-            const Strands byMap = grown(mapped);
-            QVERIFY2(same(byMap, grown(half)), path.c_str());
-            ++heard;
-            if (!same(byMap, without)) continue;
-            ++still;
-            qInfo("%s changes nothing here", path.c_str());
-        }
-        QVERIFY2(heard > 60 && still < 9, qPrintable(QString("%1 of %2").arg(still).arg(heard)));
     }
 
     void hairOfAGroupHearsNothingOfOthers() {
