@@ -20,7 +20,8 @@ constexpr std::size_t slice = std::size_t{side} * side;
 constexpr std::size_t cells = slice * side;
 constexpr float layersOfCoverage = 4.0f;
 constexpr float fixedPoint = 1024.0f;  // counts of one layer
-constexpr std::size_t grain = 256;     // hairs
+constexpr float softness = 1.0f / (VoxelShadow::nearLayers * fixedPoint);
+constexpr std::size_t grain = 256;  // hairs
 
 // Calls deposit(cell, amount) for short steps along the drawn hairs. `toGrid` maps to cells, x y z of a grid of `n`.
 template <class Deposit>
@@ -150,7 +151,7 @@ void VoxelShadow::build(const Strands& strands, const HairDetail& detail, const 
     constexpr float texelsOfCount = 65535.0f / (fullLayers * fixedPoint);
     const auto sum = WHORL_PICK(sumVoxels);
     parallelFor(side, 16, [&](std::size_t begin, std::size_t end) {
-        sum(m_counts.data(), m_texels.data(), texelsOfCount, static_cast<int>(begin), static_cast<int>(end));
+        sum(m_counts.data(), m_texels.data(), texelsOfCount, softness, static_cast<int>(begin), static_cast<int>(end));
     });
 }
 
@@ -167,6 +168,7 @@ void VoxelShadow::buildReference(const Strands& strands, const HairDetail& detai
          [&](std::size_t cell, std::uint32_t amount) { m_counts[cell] += amount; });
     constexpr float texelsOfCount = 65535.0f / (fullLayers * fixedPoint);
     const auto count = [&](std::size_t x, std::size_t y, std::size_t z) { return m_counts[z * slice + y * side + x]; };
+    std::vector<float> all(cells);
     std::vector<float> middle(cells);
     for (std::size_t y = 0; y < side; ++y) {
         for (std::size_t x = 0; x < side; ++x) {
@@ -175,7 +177,11 @@ void VoxelShadow::buildReference(const Strands& strands, const HairDetail& detai
                 const std::uint32_t above = count(x, y > 0 ? y - 1 : y, z);
                 const std::uint32_t below = count(x, y + 1 < side ? y + 1 : y, z);
                 const std::uint32_t here = (above + 2 * count(x, y, z) + below) >> 2;
-                middle[z * slice + y * side + x] = static_cast<float>(sum + (here >> 1));
+                const std::size_t at = z * slice + y * side + x;
+                all[at] = static_cast<float>(sum + (here >> 1));
+                const float far = z >= nearVoxels ? all[at - nearVoxels * slice] : 0.0f;
+                const float near = all[at] - far;
+                middle[at] = far + near / (1.0f + near * softness);
                 sum += here;
             }
         }
@@ -245,14 +251,18 @@ void AmbientVolume::build(const Strands& strands, const HairDetail& detail) {
                         const int ny = y + way.y;
                         const int nz = z + way.z;
                         const auto at = static_cast<std::size_t>((z * n + y) * n + x);
-                        float sum = 0.0f;
+                        float far = 0.0f;
+                        float near = 0.5f * static_cast<float>(counts[at]) * length / fixedPoint;
                         if (nx >= 0 && nx < n && ny >= 0 && ny < n && nz >= 0 && nz < n) {
                             const auto before = static_cast<std::size_t>((nz * n + ny) * n + nx);
-                            sum = sums[before] + static_cast<float>(counts[before]) * length / fixedPoint;
+                            const float neighbour = static_cast<float>(counts[before]) * length / fixedPoint;
+                            far = sums[before];
+                            near += neighbour;
+                            sums[at] = far + neighbour;
+                        } else {
+                            sums[at] = 0.0f;
                         }
-                        sums[at] = sum;
-                        const float own = static_cast<float>(counts[at]) * length / fixedPoint;
-                        open[w][at] = std::exp(-1.1f * (sum + 0.5f * own));
+                        open[w][at] = std::exp(-1.1f * (far + near / (1.0f + near / nearCover)));
                     }
                 }
             }

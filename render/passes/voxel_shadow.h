@@ -23,6 +23,9 @@ public:
     static constexpr int size = 128;
     /// Layers of hair that the largest texel means.
     static constexpr float fullLayers = 64.0f;
+    /// Layers that the hair of the nearest voxels means at most: which of it lies before a place and which behind, the
+    /// grid cannot tell, and the surface of a dense coat must not shadow itself.
+    static constexpr float nearLayers = 7.0f;
 
     /// `towardsLight` is a unit vector. Hairs count by their width as drawn. A layer is a quarter of what would
     /// cover a voxel's side, so that shadows do not depend on the grid.
@@ -52,6 +55,8 @@ private:
 class AmbientVolume {
 public:
     static constexpr int size = 32;
+    /// Covers that the hair of a cell and its neighbour hides at most; see VoxelShadow::nearLayers.
+    static constexpr float nearCover = 1.3f;
 
     void build(const Strands& strands, const HairDetail& detail);
     /// size cubed; xyz: sum of the directions that are open (up to unit length), w: open share, 0 to 1.

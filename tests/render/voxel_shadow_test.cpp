@@ -48,6 +48,13 @@ float layersAt(const VoxelShadow& shadow, glm::vec3 p) {
     return static_cast<float>(shadow.texels()[at]) / 65535.0f * VoxelShadow::fullLayers;
 }
 
+glm::vec4 surroundingsAt(const AmbientVolume& ambient, glm::vec3 p) {
+    constexpr std::size_t n = AmbientVolume::size;
+    const glm::vec3 place = (p * ambient.scale() + ambient.offset()) * static_cast<float>(n);
+    return ambient.texels()[(static_cast<std::size_t>(place.z) * n + static_cast<std::size_t>(place.y)) * n +
+                            static_cast<std::size_t>(place.x)];
+}
+
 }  // namespace
 
 class VoxelShadowTest : public QObject {
@@ -124,6 +131,37 @@ private Q_SLOTS:
         QVERIFY(std::abs(sum(HairDetail{2, 2, 2.0f}) / all - 1.0) < 0.05);
     }
 
+    // However dense the coat, its surface is lit and its depth is dark, under lamps from above and from the side.
+    void denseCoatsDoNotShadowTheirSurface() {
+        constexpr float depth = 0.03f;
+        for (const float width : {0.001f, 0.003f, 0.01f}) {
+            Strands coat;
+            for (int i = 0; i < 20000; ++i) {
+                const auto index = static_cast<std::uint64_t>(i);
+                const glm::vec3 root(randomFloat(5, index, 0) * 0.1f, 0.0f, randomFloat(5, index, 1) * 0.1f);
+                addHair(coat, root, root + glm::vec3(0, depth, 0), width);
+            }
+            for (const glm::vec3 lamp : {glm::vec3(0, 1, 0), glm::vec3(1, 1, 0.3f), glm::vec3(-0.5f, 1, 1)}) {
+                VoxelShadow shadow;
+                shadow.build(coat, m_all, glm::normalize(lamp));
+                float surface = 0.0f;
+                float deep = 1e9f;
+                for (int i = 0; i < 2500; ++i) {
+                    const glm::vec2 place = glm::vec2(i % 50, i / 50) * 0.001f + 0.025f;
+                    surface = std::max(surface, layersAt(shadow, glm::vec3(place.x, depth, place.y)));
+                    deep = std::min(deep, layersAt(shadow, glm::vec3(place.x, 0.4f * depth, place.y)));
+                }
+                QVERIFY2(surface <= VoxelShadow::nearLayers, qPrintable(QString::number(static_cast<double>(surface))));
+                QVERIFY2(deep > 2.0f * VoxelShadow::nearLayers, qPrintable(QString::number(static_cast<double>(deep))));
+            }
+            AmbientVolume ambient;
+            ambient.build(coat, m_all);
+            QVERIFY2(surroundingsAt(ambient, glm::vec3(0.05f, depth - 0.002f, 0.05f)).w > 0.06f,
+                     qPrintable(QString::number(static_cast<double>(width))));
+            QVERIFY(surroundingsAt(ambient, glm::vec3(0.05f, 0.4f * depth, 0.05f)).w < 0.05f);
+        }
+    }
+
     void bordersAreEmpty() {
         VoxelShadow shadow;
         shadow.build(tuft(300), m_all, m_light);
@@ -151,15 +189,9 @@ private Q_SLOTS:
         const Strands strands = tuft(3000);
         AmbientVolume ambient;
         ambient.build(strands, m_all);
-        constexpr int n = AmbientVolume::size;
-        const auto at = [&](glm::vec3 p) {
-            const glm::vec3 place = (p * ambient.scale() + ambient.offset()) * static_cast<float>(n);
-            return ambient.texels()[(static_cast<std::size_t>(place.z) * n + static_cast<std::size_t>(place.y)) * n +
-                                    static_cast<std::size_t>(place.x)];
-        };
         const Bounds box = vertexBounds(strands);
-        const glm::vec4 middle = at(box.centre());
-        const glm::vec4 top = at(glm::vec3(box.centre().x, box.max.y, box.centre().z));
+        const glm::vec4 middle = surroundingsAt(ambient, box.centre());
+        const glm::vec4 top = surroundingsAt(ambient, glm::vec3(box.centre().x, box.max.y, box.centre().z));
         QVERIFY(middle.w < top.w * 0.7f);
         QVERIFY(top.y > 0.5f);  // the open side is up
         const ThreadLimit one(1);
