@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of baked hair texture: what it holds at seams, in margins, on mirrored charts, and in files.
-#include "core/field/groom_field.h"
 #include "core/io/bake_files.h"
 #include "core/io/image.h"
 #include "core/surface/adjacency.h"
-#include "core/surface/parting_line.h"
+#include "tests/support/lic_scene.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -14,34 +13,12 @@
 #include <cmath>
 
 using namespace whorl;
+using namespace whorl::testing;
 
 namespace {
 
-float degreesBetween(const glm::vec3& a, const glm::vec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29578f;
-}
-
-struct Scene {
-    Groom groom;
-    std::shared_ptr<const Surface> surface;
-    DirectionField field;
-
-    Scene(SurfaceMesh mesh, const std::vector<std::vector<glm::vec3>>& strokes) : groom(makeGroom(std::move(mesh))) {
-        surface = std::make_shared<const Surface>(groom.mesh);
-        for (const auto& places : strokes) {
-            FieldStroke stroke;
-            stroke.id = static_cast<std::uint32_t>(groom.strokes->size()) + 1;
-            stroke.points = *tracedParting(*surface, places);
-            groom.strokes.edit().push_back(std::move(stroke));
-        }
-        LicParams& lic = groom.lic.edit();
-        lic.border = 0.0f;
-        solve();
-    }
-    void solve() {
-        Progress progress;
-        field = *groomField(groom, surface, progress);
-    }
+struct Scene : LicScene {
+    Scene(SurfaceMesh mesh, const Lines& strokes) : LicScene(std::move(mesh), strokes) { lic().border = 0.0f; }
     LicBake bake(const BakeOptions& options) const {
         Progress progress;
         return *bakeLic(groom, surface, field, options, progress);
@@ -85,23 +62,8 @@ glm::vec3 directionOf(const SurfaceMesh& mesh, const SurfacePoint& point, glm::v
     return tangent * flow.x + bitangent * flow.y;
 }
 
-const std::vector<std::vector<glm::vec3>> aroundTheBall{{{0.1f, 0, 0}, {0.06f, 0.02f, 0.07f}, {0, 0, 0.1f}},
-                                                        {{-0.1f, 0, 0}, {-0.05f, -0.04f, -0.07f}, {0, 0, -0.1f}}};
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ma += a[i] / n;
-        mb += b[i] / n;
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-        ab += (a[i] - ma) * (b[i] - mb);
-    }
-    return ab / std::sqrt(aa * bb);
-}
+const Lines twoOnTheBall{{{0.1f, 0, 0}, {0.06f, 0.02f, 0.07f}, {0, 0, 0.1f}},
+                         {{-0.1f, 0, 0}, {-0.05f, -0.04f, -0.07f}, {0, 0, -0.1f}}};
 
 }  // namespace
 
@@ -141,7 +103,7 @@ private Q_SLOTS:
         QFETCH(QString, format);
         QFETCH(int, bits);
         QFETCH(float, bound);
-        const Scene scene(mirroredBall(), aroundTheBall);
+        const Scene scene(mirroredBall(), twoOnTheBall);
         BakeRequest request;
         request.file = testing::scratchFolder("bake") / "ball";
         request.maps = {BakeMap::Flow};
@@ -238,7 +200,7 @@ private Q_SLOTS:
         QFETCH(bool, reference);
         // The ball's UVs are cut from pole to pole at the back.
         Scene scene(testing::sphere(48, 64, 0.1f), {{{0.1f, 0, 0}, {0, 0, 0.1f}}, {{-0.1f, 0, 0}, {0, 0, -0.1f}}});
-        LicParams& lic = scene.groom.lic.edit();
+        LicParams& lic = scene.lic();
         lic.grain.value = 0.004f;
         lic.length.value = 0.02f;
         const int size = 256;
@@ -257,8 +219,8 @@ private Q_SLOTS:
     }
 
     void fastAsTheReference() {
-        Scene scene(testing::sphere(48, 64, 0.1f), aroundTheBall);
-        LicParams& lic = scene.groom.lic.edit();
+        Scene scene(testing::sphere(48, 64, 0.1f), twoOnTheBall);
+        LicParams& lic = scene.lic();
         lic.grain.value = 0.005f;
         lic.length.value = 0.02f;
         const LicBake fast = scene.bake({.size = 192, .margin = 0});
@@ -275,7 +237,7 @@ private Q_SLOTS:
 
     void parametersCount() {
         Scene scene(testing::plane(6), {{{-0.3f, 0, 0}, {0.3f, 0, 0}}});
-        LicParams& lic = scene.groom.lic.edit();
+        LicParams& lic = scene.lic();
         lic.grain.value = 0.02f;
         lic.length.value = 0.1f;
         lic.contrast = 0.0f;
@@ -318,7 +280,7 @@ private Q_SLOTS:
     }
 
     void allMapsInFiles() {
-        const Scene scene(mirroredBall(), aroundTheBall);
+        const Scene scene(mirroredBall(), twoOnTheBall);
         const auto folder = testing::scratchFolder("bake_all");
         Progress progress;
         BakeRequest request;

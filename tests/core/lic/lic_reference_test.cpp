@@ -3,7 +3,7 @@
 #include "core/base/random.h"
 #include "core/field/grow_guides.h"
 #include "core/lic/reference.h"
-#include "core/surface/parting_line.h"
+#include "tests/support/lic_scene.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -14,41 +14,12 @@
 #include <numbers>
 
 using namespace whorl;
+using namespace whorl::testing;
 
 namespace {
 
-std::shared_ptr<const Surface> surfaceOf(SurfaceMesh mesh) {
-    return std::make_shared<const Surface>(Cow<SurfaceMesh>(std::move(mesh)));
-}
-
-/// The field of strokes through the given places.
-LicReference combed(std::shared_ptr<const Surface> surface, const std::vector<std::vector<glm::vec3>>& lines,
-                    const std::vector<Parting>& partings = {}) {
-    Progress progress;
-    std::vector<FieldStroke> strokes;
-    for (const auto& line : lines) strokes.emplace_back().points = *tracedParting(*surface, line);
-    const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 1);
-    const auto solver = FieldSolver::make(surface, grows, partings, progress);
-    return LicReference(surface, *solver->solve(strokes, {}, progress));
-}
-
-SurfacePoint placeAt(const Surface& surface, const glm::vec3& position) {
-    return surface.query.nearest(position)->point;
-}
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ma += a[i] / n;
-        mb += b[i] / n;
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-        ab += (a[i] - ma) * (b[i] - mb);
-    }
-    return ab / std::sqrt(aa * bb);
+LicReference combed(const LicScene& scene) {
+    return LicReference(scene.surface, scene.field);
 }
 
 }  // namespace
@@ -58,29 +29,29 @@ class LicReferenceTest : public QObject {
 
 private Q_SLOTS:
     void straightWaysStayStraight() {
-        const SurfaceMesh mesh = testing::plane(9);
-        const auto surface = surfaceOf(mesh);
+        const LicScene scene(testing::plane(9));
+        const SurfaceMesh& mesh = *scene.groom.mesh;
         const SurfaceWalk walk(mesh);
         for (std::uint32_t i = 0; i < 200; ++i) {
             const glm::vec3 from(randomFloat(1, i, 0) * 0.6f - 0.3f, 0, randomFloat(1, i, 1) * 0.6f - 0.3f);
             const float angle = randomFloat(1, i, 2) * 6.2832f, way = randomFloat(1, i, 3) * 0.15f;
             const glm::vec3 d(std::cos(angle), 0, std::sin(angle));
-            const SurfacePoint start = placeAt(*surface, from);
+            const SurfacePoint start = scene.placeAt(from);
             const SurfaceWalk::Step step = walk.go(mesh, start, d, way);
             QVERIFY(glm::distance(positionAt(mesh, step.point), positionAt(mesh, start) + d * way) < 2e-6f);
             QVERIFY(glm::distance(step.direction, d) < 1e-5f);
             QVERIFY(std::abs(step.walked - way) < 1e-6f);
         }
         // Off the border there is no way.
-        const SurfaceWalk::Step off = walk.go(mesh, placeAt(*surface, {0.4f, 0, 0}), {1, 0, 0}, 1.0f);
+        const SurfaceWalk::Step off = walk.go(mesh, scene.placeAt({0.4f, 0, 0}), {1, 0, 0}, 1.0f);
         QVERIFY(std::abs(off.walked - 0.1f) < 1e-4f);
     }
 
     void aroundABallAndBack() {
-        const SurfaceMesh mesh = testing::sphere(64, 96, 0.1f);
-        const auto surface = surfaceOf(mesh);
+        const LicScene scene(testing::sphere(64, 96, 0.1f));
+        const SurfaceMesh& mesh = *scene.groom.mesh;
         const SurfaceWalk walk(mesh);
-        const SurfacePoint start = placeAt(*surface, {0.07f, 0.03f, 0.064f});
+        const SurfacePoint start = scene.placeAt({0.07f, 0.03f, 0.064f});
         const glm::vec3 from = positionAt(mesh, start);
         const SurfaceWalk::Step there = walk.go(mesh, start, {0.3f, 0.8f, -0.2f}, 0.25f);
         QVERIFY(std::abs(there.walked - 0.25f) < 1e-5f);
@@ -90,13 +61,12 @@ private Q_SLOTS:
     }
 
     void streamlinesComeBack() {
-        const auto surface = surfaceOf(testing::sphere(64, 96, 0.1f));
-        const LicReference lic = combed(surface, {{{0.1f, 0, 0}, {0.08f, 0.05f, 0.03f}, {0.05f, 0.08f, 0.02f}},
-                                                  {{-0.05f, 0.08f, 0.03f}, {-0.09f, 0.02f, 0.04f}}});
+        const LicScene scene(testing::sphere(64, 96, 0.1f), Lines(aroundTheBall.begin(), aroundTheBall.begin() + 2));
+        const LicReference lic = combed(scene);
         int whole = 0;
         for (std::uint32_t i = 0; i < 40; ++i) {
             const glm::vec3 out(randomFloat(2, i, 0) - 0.5f, randomFloat(2, i, 1) * 0.5f, randomFloat(2, i, 2) - 0.5f);
-            const SurfacePoint start = placeAt(*surface, glm::normalize(out) * 0.1f);
+            const SurfacePoint start = scene.placeAt(glm::normalize(out) * 0.1f);
             const auto line = lic.streamline(start, 0.02f, 0.0005f, false);
             if (line.size() < 41) continue;
             ++whole;
@@ -109,14 +79,14 @@ private Q_SLOTS:
     }
 
     void evenAlongAndWhiteAcross() {
-        const auto surface = surfaceOf(testing::plane(10));
-        const LicReference lic = combed(surface, {{{-0.2f, 0, 0}, {0.2f, 0, 0}}});
+        const LicScene scene(testing::plane(10), {{{-0.2f, 0, 0}, {0.2f, 0, 0}}});
+        const LicReference lic = combed(scene);
         LicOptions options;
         options.grain = 0.005f;
         options.length = 0.05f;
         options.kernel = LicKernel::Box;
         const auto value = [&](float x, float z) {
-            return static_cast<double>(*lic.at(placeAt(*surface, {x, 0, z}), options));
+            return static_cast<double>(*lic.at(scene.placeAt({x, 0, z}), options));
         };
         // Pairs a distance apart along and across.
         for (const float share : {0.25f, 0.5f}) {
@@ -137,8 +107,8 @@ private Q_SLOTS:
     }
 
     void theShareOfWhiteIsTheMean() {
-        const auto surface = surfaceOf(testing::plane(4));
-        const LicReference lic = combed(surface, {{{-0.2f, 0, 0}, {0.2f, 0, 0.1f}}});
+        const LicScene scene(testing::plane(4), {{{-0.2f, 0, 0}, {0.2f, 0, 0.1f}}});
+        const LicReference lic = combed(scene);
         for (const float white : {0.1f, 0.5f, 0.8f}) {
             LicOptions options;
             options.grain = 0.01f;
@@ -147,19 +117,18 @@ private Q_SLOTS:
             double sum = 0.0;
             for (std::uint32_t i = 0; i < 800; ++i) {
                 const glm::vec3 p(randomFloat(4, i, 0) * 0.8f - 0.4f, 0, randomFloat(4, i, 1) * 0.8f - 0.4f);
-                sum += static_cast<double>(*lic.at(placeAt(*surface, p), options)) / 800.0;
+                sum += static_cast<double>(*lic.at(scene.placeAt(p), options)) / 800.0;
             }
             QVERIFY2(std::abs(sum - static_cast<double>(white)) < 0.03, qPrintable(QString::number(sum)));
         }
     }
 
     void noStreamlineCrossesAParting() {
-        const auto surface = surfaceOf(testing::plane(12));
         const std::vector<glm::vec3> line{{0.013f, 0, -0.5f}, {-0.02f, 0, 0.0f}, {0.013f, 0, 0.5f}};
-        const std::vector<Parting> partings{{1, "", *tracedParting(*surface, line)}};
         // Towards the parting from both sides.
-        const LicReference lic =
-            combed(surface, {{{-0.4f, 0, 0}, {-0.1f, 0, 0}}, {{0.4f, 0, 0}, {0.1f, 0, 0}}}, partings);
+        const LicScene scene(testing::plane(12), {{{-0.4f, 0, 0}, {-0.1f, 0, 0}}, {{0.4f, 0, 0}, {0.1f, 0, 0}}},
+                             {line});
+        const LicReference lic = combed(scene);
         const auto sideOf = [&](const glm::vec3& p) {
             const float at = -0.02f + 0.033f * std::abs(p.z) / 0.5f;
             return p.x < at ? -1 : 1;
@@ -167,7 +136,7 @@ private Q_SLOTS:
         int stopped = 0;
         for (std::uint32_t i = 0; i < 200; ++i) {
             const glm::vec3 p(randomFloat(5, i, 0) * 0.4f - 0.2f, 0, randomFloat(5, i, 1) * 0.7f - 0.35f);
-            const auto places = lic.streamline(placeAt(*surface, p), 0.3f, 0.004f, false);
+            const auto places = lic.streamline(scene.placeAt(p), 0.3f, 0.004f, false);
             if (places.empty()) continue;
             for (const auto& place : places) QCOMPARE(sideOf(place.position), sideOf(places.front().position));
             stopped += places.size() < 75;
@@ -177,15 +146,13 @@ private Q_SLOTS:
 
     void aFieldFromGuides() {
         Groom groom = testing::groomOn(testing::sphere(32, 48), 150, 10, 0.03f);
-        const auto surface = surfaceOf(*groom.mesh);
-        const LicReference lic = combed(surface, {{{0.1f, 0, 0}, {0.07f, 0.07f, 0.02f}}});
+        const LicScene scene(*groom.mesh, {{{0.1f, 0, 0}, {0.07f, 0.07f, 0.02f}}});
+        const LicReference lic = combed(scene);
         Progress progress;
-        QVERIFY(growGuidesAlong(groom, *surface, lic.field(), {.lift = 0.1f}, progress).ok());
-        const std::vector<FieldStroke> strokes = strokesFromGuides(groom, *surface, -1);
-        QCOMPARE(strokes.size(), groom.guides.count());
-        const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 1);
-        const auto solver = FieldSolver::make(surface, grows, {}, progress);
-        const DirectionField again = *solver->solve(strokes, {}, progress);
+        QVERIFY(growGuidesAlong(groom, *scene.surface, lic.field(), {.lift = 0.1f}, progress).ok());
+        QCOMPARE(strokesFromGuides(groom, *scene.surface, -1).size(), groom.guides.count());
+        // Without strokes guides lead.
+        const DirectionField again = LicScene(groom).field;
         double sum = 0.0;
         for (std::size_t i = 0; i < again.vertices().size(); ++i) {
             const double cosine = static_cast<double>(glm::dot(again.vertices()[i], lic.field().vertices()[i]));
@@ -193,15 +160,15 @@ private Q_SLOTS:
         }
         const double mean = sum / static_cast<double>(again.vertices().size());
         QVERIFY2(mean < 8.0, qPrintable(QString::number(mean)));
-        QVERIFY(strokesFromGuides(groom, *surface, 1).empty());
+        QVERIFY(strokesFromGuides(groom, *scene.surface, 1).empty());
     }
 
     void nothingWhereNoHairLies() {
-        const auto surface = surfaceOf(testing::plane(4));
+        const LicScene scene(testing::plane(4));
         Progress progress;
-        const std::vector<std::uint8_t> grows(surface->mesh().triangleCount(), 0);
-        const auto solver = FieldSolver::make(surface, grows, {}, progress);
-        const LicReference lic(surface, *solver->solve({}, {}, progress));
+        const std::vector<std::uint8_t> grows(scene.groom.mesh->triangleCount(), 0);
+        const auto solver = FieldSolver::make(scene.surface, grows, {}, progress);
+        const LicReference lic(scene.surface, *solver->solve({}, {}, progress));
         QVERIFY(!lic.at({0, 0.2f, 0.2f}, {}));
         QVERIFY(lic.streamline({0, 0.2f, 0.2f}, 0.1f, 0.01f, false).empty());
     }
