@@ -7,7 +7,9 @@ namespace {
 
 using Arguments = std::span<const std::string>;
 
-constexpr const char* usage = "bake-lic FILE [colour] [opacity] [flow] [height] [size TEXELS] [margin TEXELS]";
+constexpr const char* usage =
+    "bake-lic FILE [colour] [opacity] [flow] [height] [size TEXELS] [margin TEXELS] "
+    "[bits 8|16|32]";
 
 Result<std::string> bake(CommandContext& context, Arguments arguments, Progress& progress) {
     if (arguments.empty()) return usageError(usage);
@@ -16,6 +18,13 @@ Result<std::string> bake(CommandContext& context, Arguments arguments, Progress&
     request.file = arguments[0];
     std::vector<std::string> names;
     for (std::size_t i = 1; i < arguments.size(); ++i) {
+        if (arguments[i] == "bits") {
+            const auto bits = i + 1 < arguments.size() ? numberFrom<int>(arguments[++i], 8, 32) : std::optional<int>();
+            if (!bits || (*bits != 8 && *bits != 16 && *bits != 32))
+                return Error{"A channel has 8, 16 or 32 bits: 8 or 16 in PNG, 16 (half floats) or 32 in EXR."};
+            request.bits = *bits;
+            continue;
+        }
         const bool size = arguments[i] == "size";
         if (!size && arguments[i] != "margin") {
             names.push_back(arguments[i]);
@@ -42,7 +51,7 @@ Result<std::string> bake(CommandContext& context, Arguments arguments, Progress&
 void addBakeCommands(std::vector<Command>& list) {
     list.push_back({"bake-lic", usage,
                     "Bakes hair texture in the mesh's UVs: colour with opacity in alpha, or the maps named, one file "
-                    "each (FILE_colour.png).",
+                    "each (FILE_colour.png). PNG has 8 or 16 bits a channel, EXR 16 (half floats) or 32.",
                     false, bake});
 }
 

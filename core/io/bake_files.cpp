@@ -31,7 +31,20 @@ std::filesystem::path fileOf(BakeMap map, const BakeRequest& request) {
     return file;
 }
 
-Result<void> writeTogether(const LicBake& bake, const std::filesystem::path& file) {
+ImageFloats floatsOf(const BakeRequest& request) {
+    return request.bits == 16 ? ImageFloats::Half : ImageFloats::Whole;
+}
+
+Result<void> writeTogether(const LicBake& bake, const BakeRequest& request) {
+    if (formatOf(request) == "exr") {
+        std::vector<float> values;
+        values.reserve(bake.colour.size() * 4);
+        for (std::size_t i = 0; i < bake.colour.size(); ++i) {
+            for (int c = 0; c < 3; ++c) values.push_back(bake.colour[i][c]);
+            values.push_back(bake.opacity[i]);
+        }
+        return writeFloats(values, bake.size, bake.size, 4, request.file, floatsOf(request));
+    }
     std::vector<std::uint8_t> pixels;
     pixels.reserve(bake.colour.size() * 4);
     const auto byte = [](float value) {
@@ -41,7 +54,7 @@ Result<void> writeTogether(const LicBake& bake, const std::filesystem::path& fil
         for (int c = 0; c < 3; ++c) pixels.push_back(byte(srgbFromLinear(std::min(bake.colour[i][c], 1.0f))));
         pixels.push_back(byte(bake.opacity[i]));
     }
-    return writePixels(pixels, bake.size, bake.size, 4, file);
+    return writePixels(pixels, bake.size, bake.size, 4, request.file);
 }
 
 }  // namespace
@@ -67,19 +80,25 @@ std::vector<std::filesystem::path> bakedFiles(const BakeRequest& request) {
 
 Result<std::vector<std::filesystem::path>> bakeToFiles(const Groom& groom, std::shared_ptr<const Surface> surface,
                                                        const BakeRequest& request, Progress& progress) {
+    const int other = formatOf(request) == "exr" ? 32 : 8;
+    if (request.bits != 0 && request.bits != 16 && request.bits != other)
+        return Error{"A channel of " + std::string(other == 32 ? "EXR" : "PNG") + " has " +
+                     (other == 32 ? "16 or 32" : "8 or 16") + " bits, not " + std::to_string(request.bits) +
+                     "; choose one of these."};
     const auto field = groomField(groom, surface, progress);
     if (!field) return field.error();
     const auto bake = bakeLic(groom, surface, *field, request.options, progress);
     if (!bake) return bake.error();
     if (request.maps.empty()) {
-        if (auto written = writeTogether(*bake, request.file); !written) return written.error();
+        if (auto written = writeTogether(*bake, request); !written) return written.error();
     }
     for (const BakeMap map : request.maps) {
         if (progress.cancelled()) return cancelledError();
         const TexelFormat format = texelsOf(map, request);
         const Map image = imageOf(*bake, map, format, format != TexelFormat::F32);
         const ImageUse use = map == BakeMap::Colour ? ImageUse::Colour : ImageUse::Data;
-        if (auto written = writeImage(image, fileOf(map, request), use); !written) return written.error();
+        if (auto written = writeImage(image, fileOf(map, request), use, floatsOf(request)); !written)
+            return written.error();
     }
     return bakedFiles(request);
 }

@@ -18,7 +18,8 @@ struct BakeRequest {
     BakeOptions options;
     /// "png" or "exr"; empty: that of `file`, or png.
     std::string format;
-    /// Of PNG, 8 or 16 a channel; 0: 8 for colour and opacity, 16 for flow and height. EXR holds floats, colour linear.
+    /// A channel. Of PNG 8 or 16; 0: 8 for colour and opacity, 16 for flow and height. Of EXR, which holds floats and
+    /// linear colour, 16 (half floats) or 32; 0: 32.
     int bits = 0;
 };
 
@@ -28,7 +29,8 @@ Result<std::vector<BakeMap>> bakeMapsNamed(std::span<const std::string> names);
 /// Files that `request` writes.
 std::vector<std::filesystem::path> bakedFiles(const BakeRequest& request);
 
-/// Solves the groom's field, bakes and writes. Returns the files. Fails when one can not be written or when cancelled.
+/// Solves the groom's field, bakes and writes. Returns the files. Fails when one can not be written, when the
+/// format has no such bits, or when cancelled.
 Result<std::vector<std::filesystem::path>> bakeToFiles(const Groom& groom, std::shared_ptr<const Surface> surface,
                                                        const BakeRequest& request, Progress& progress);
 

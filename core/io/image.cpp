@@ -197,6 +197,17 @@ Result<OutputFormat> outputFormat(const std::filesystem::path& file) {
                  ": images are written as .png, .exr, .tif, .jpg or .tga; choose one of these endings."};
 }
 
+Result<void> checkPixels(std::size_t values, int width, int height, int channels, const std::filesystem::path& file) {
+    const bool possible = width >= 1 && height >= 1 && width <= Map::maxSize && height <= Map::maxSize &&
+                          (channels == 3 || channels == 4);
+    if (possible && values == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                                  static_cast<std::size_t>(channels))
+        return {};
+    return Error{plainText(file.filename().string()) + ": " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels with " + std::to_string(channels) +
+                 " channels can not be written; choose 1 to 16,384 pixels a side."};
+}
+
 }  // namespace
 
 Result<Map> readImage(const std::filesystem::path& file, ImageUse use, std::vector<std::string>* repairs) {
@@ -226,7 +237,7 @@ Result<Map> readImage(std::span<const std::uint8_t> bytes, const std::string& na
     return decode(input, head, name, use, repairs);
 }
 
-Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use) {
+Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use, ImageFloats floats) {
     const auto output = outputFormat(file);
     if (!output) return output.error();
     if (map.empty())
@@ -250,6 +261,7 @@ Result<void> writeImage(const Map& map, const std::filesystem::path& file, Image
     request.channels = static_cast<std::uint32_t>(map.channels());
     request.format = static_cast<std::uint32_t>(format);
     request.srgb = srgb ? 1 : 0;
+    request.half = output->linear && floats == ImageFloats::Half ? 1 : 0;
     return encode(request, flatten(map, format, convert), output->plugin, file);
 }
 
@@ -257,20 +269,30 @@ Result<void> writePixels(std::span<const std::uint8_t> pixels, int width, int he
                          const std::filesystem::path& file) {
     const auto output = outputFormat(file);
     if (!output) return output.error();
-    const bool possible = width >= 1 && height >= 1 && width <= Map::maxSize && height <= Map::maxSize &&
-                          (channels == 3 || channels == 4);
-    if (!possible || pixels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                                          static_cast<std::size_t>(channels)) {
-        return Error{plainText(file.filename().string()) + ": " + std::to_string(width) + " x " +
-                     std::to_string(height) + " pixels with " + std::to_string(channels) +
-                     " channels can not be written; choose 1 to 16,384 pixels a side."};
-    }
+    if (auto possible = checkPixels(pixels.size(), width, height, channels, file); !possible) return possible.error();
     protocol::Request request;
     request.width = static_cast<std::uint32_t>(width);
     request.height = static_cast<std::uint32_t>(height);
     request.channels = static_cast<std::uint32_t>(channels);
     request.srgb = 1;
     return encode(request, pixels, output->plugin, file);
+}
+
+Result<void> writeFloats(std::span<const float> values, int width, int height, int channels,
+                         const std::filesystem::path& file, ImageFloats floats) {
+    const auto output = outputFormat(file);
+    if (!output) return output.error();
+    if (!output->linear)
+        return Error{plainText(file.filename().string()) + ": floats are written as .exr; choose this ending."};
+    if (auto possible = checkPixels(values.size(), width, height, channels, file); !possible) return possible.error();
+    protocol::Request request;
+    request.width = static_cast<std::uint32_t>(width);
+    request.height = static_cast<std::uint32_t>(height);
+    request.channels = static_cast<std::uint32_t>(channels);
+    request.format = static_cast<std::uint32_t>(TexelFormat::F32);
+    request.half = floats == ImageFloats::Half ? 1 : 0;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
+    return encode(request, {bytes, values.size_bytes()}, output->plugin, file);
 }
 
 }  // namespace whorl

@@ -13,6 +13,8 @@
 namespace whorl {
 
 enum class ImageUse { Data, Colour };
+/// How EXR stores numbers. Half: three digits, half the size.
+enum class ImageFloats { Whole, Half };
 
 /// Reads PNG, EXR, TIFF, JPEG, TGA, BMP, PFM or HDR. Data: one channel (mean of the colours, or the only channel); 8
 /// and 16 bit stay, others become float. Colour: three channels; integer formats are sRGB. At most 16,384 x 16,384 and
@@ -27,11 +29,17 @@ Result<Map> readImage(std::span<const std::uint8_t> bytes, const std::string& na
                       std::vector<std::string>* repairs = nullptr);
 
 /// Format by suffix: png (8 or 16 bit), exr, tif, jpg, tga. Written beside the file and renamed. Colour: three channels
-/// are colour, encoded or not as the format wants it. Data: they are numbers and stay.
-Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use = ImageUse::Colour);
+/// are colour, encoded or not as the format wants it. Data: they are numbers and stay. `floats` counts for EXR alone.
+Result<void> writeImage(const Map& map, const std::filesystem::path& file, ImageUse use = ImageUse::Colour,
+                        ImageFloats floats = ImageFloats::Whole);
 
 /// Plain pixels, rows from the top, 8 bit sRGB, 3 or 4 channels: renders.
 Result<void> writePixels(std::span<const std::uint8_t> pixels, int width, int height, int channels,
                          const std::filesystem::path& file);
+
+/// Linear numbers as they are into an EXR, rows from the top, 3 or 4 channels; the last of four is opacity, by which
+/// the others are not multiplied.
+Result<void> writeFloats(std::span<const float> values, int width, int height, int channels,
+                         const std::filesystem::path& file, ImageFloats floats = ImageFloats::Whole);
 
 }  // namespace whorl

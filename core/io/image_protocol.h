@@ -45,6 +45,7 @@ struct Request {
     std::uint32_t channels = 0;
     std::uint32_t format = 0;
     std::uint32_t srgb = 0;  ///< the numbers are sRGB-encoded colour
+    std::uint32_t half = 0;  ///< floats are stored as half floats
 };
 
 }  // namespace whorl::image_protocol

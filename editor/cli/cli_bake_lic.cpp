@@ -62,8 +62,9 @@ void addBakeLic(CLI::App& app) {
         ->check(CLI::IsMember({"png", "exr"}));
     program
         ->add_option("--bits", options->request.bits,
-                     "8 or 16 bits a channel of png; without it 8, and 16 for flow and height")
-        ->check(CLI::IsMember({8, 16}));
+                     "Bits a channel. png: 8 or 16; without it 8, and 16 for flow and height. exr: 16, half floats, or "
+                     "32, which it is without it")
+        ->check(CLI::IsMember({8, 16, 32}));
     program->add_flag("--reference", bake.reference, "Convolve place by place with Runge-Kutta steps: slow");
     program->add_option("--length", options->length, "Metres of streamline each way instead of the groom's")
         ->check(CLI::Range(0.0001f, 10.0f));

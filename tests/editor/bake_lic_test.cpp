@@ -65,7 +65,17 @@ private Q_SLOTS:
         QVERIFY(std::filesystem::exists(m_folder / "coat_opacity.exr"));
         QVERIFY(!std::filesystem::exists(m_folder / "coat_colour.exr"));
         // As it was the last time.
-        const BakeDialog again(m_window.get());
+        BakeDialog again(m_window.get());
+        QCOMPARE(again.request().format, std::string("exr"));
+        QCOMPARE(again.request().bits, 0);
+        again.findChild<QComboBox*>("bake_format")->setCurrentIndex(2);
+        QCOMPARE(again.request().format, std::string("exr"));
+        QCOMPARE(again.request().bits, 16);
+        again.remember();
+        QCOMPARE(BakeDialog(m_window.get()).request().bits, 16);
+        again.findChild<QComboBox*>("bake_format")->setCurrentIndex(0);
+        QCOMPARE(again.request().format, std::string("png"));
+        QCOMPARE(again.request().bits, 0);
         QCOMPARE(again.request().options.size, 64);
         QCOMPARE(again.request().maps, (std::vector{BakeMap::Opacity, BakeMap::Flow}));
     }

@@ -39,7 +39,8 @@ int writeImage(const std::string& plugin, const std::string& path) {
     auto output = OIIO::ImageOutput::create(plugin);
     if (!output) return fail("this build of OpenImageIO can not write the format " + plugin);
     OIIO::ImageSpec spec(static_cast<int>(request.width), static_cast<int>(request.height),
-                         static_cast<int>(request.channels), type);
+                         static_cast<int>(request.channels),
+                         request.half != 0 ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : type);
     spec.attribute("oiio:ColorSpace", request.srgb != 0 ? "sRGB" : "Linear");
     spec.attribute("Software", "Whorl");
     spec.attribute("oiio:UnassociatedAlpha", 1);

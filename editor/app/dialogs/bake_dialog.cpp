@@ -56,7 +56,9 @@ BakeDialog::BakeDialog(QWidget* parent) : QDialog(parent) {
     m_format = new QComboBox(this);
     m_format->setObjectName("bake_format");
     m_format->addItem(tr("PNG"), "png");
-    m_format->addItem(tr("EXR, floating point"), "exr");
+    m_format->addItem(tr("EXR, floats"), "exr");
+    m_format->addItem(tr("EXR, half floats"), "exr, half");
+    m_format->setToolTip(tr("Half floats have three digits, which is enough to draw with, in half the size."));
     m_format->setCurrentIndex(std::max(m_format->findData(settings.value("bake/format", "png")), 0));
     form->addRow(tr("Format"), m_format);
 
@@ -79,7 +81,9 @@ BakeRequest BakeDialog::request() const {
     }
     request.options.size = m_size->value();
     request.options.margin = m_margin->value();
-    request.format = m_format->currentData().toString().toStdString();
+    const QString format = m_format->currentData().toString();
+    request.format = format == "png" ? "png" : "exr";
+    if (format == "exr, half") request.bits = 16;
     return request;
 }
 

@@ -98,6 +98,7 @@ private Q_SLOTS:
         QTest::newRow("png, 16 bit") << "png" << 0 << 0.5f;
         QTest::newRow("png, 8 bit") << "png" << 8 << 2.0f;
         QTest::newRow("exr") << "exr" << 0 << 0.5f;
+        QTest::newRow("exr, half floats") << "exr" << 16 << 0.5f;
     }
     void flowInFilesGivesTheField() {
         QFETCH(QString, format);
@@ -321,11 +322,59 @@ private Q_SLOTS:
                 }
             }
         }
+        // Half floats: what they can hold of the floats, and no more.
+        request.bits = 16;
+        request.file = folder / "half.exr";
+        const auto halves = bakeToFiles(scene.groom, scene.surface, request, progress);
+        QVERIFY(halves.ok());
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool three = request.maps[k] == BakeMap::Colour || request.maps[k] == BakeMap::Flow;
+            const auto exact = readImage((*floats)[k], three ? ImageUse::Colour : ImageUse::Data);
+            const auto half = readImage((*halves)[k], three ? ImageUse::Colour : ImageUse::Data);
+            QVERIFY(exact.ok() && half.ok());
+            QVERIFY(std::filesystem::file_size((*halves)[k]) < std::filesystem::file_size((*floats)[k]));
+            int rounded = 0;
+            for (int y = 0; y < 96; ++y) {
+                for (int x = 0; x < 96; ++x) {
+                    for (int c = 0; c < half->channels(); ++c) {
+                        const float value = half->texel(x, y, c), whole = exact->texel(x, y, c);
+                        // Eleven binary digits, fewer below the smallest normal number.
+                        QVERIFY(std::abs(value - whole) <= std::ldexp(std::max(whole, 6.104e-5f), -11));
+                        int exponent = 0;
+                        std::frexp(value, &exponent);
+                        const float steps = std::ldexp(value, 11 - std::max(exponent, -13));
+                        QCOMPARE(steps, std::round(steps));
+                        rounded += value != whole ? 1 : 0;
+                    }
+                }
+            }
+            QVERIFY(rounded > 100 || request.maps[k] == BakeMap::Opacity);
+        }
+        // Of the two formats each has bits of its own.
+        request.bits = 8;
+        QVERIFY(!bakeToFiles(scene.groom, scene.surface, request, progress).ok());
+        request.file = folder / "none.png";
+        request.bits = 32;
+        QVERIFY(!bakeToFiles(scene.groom, scene.surface, request, progress).ok());
+        QVERIFY(!std::filesystem::exists(folder / "none_colour.png"));
         // Alone: colour and opacity together.
+        request.bits = 0;
         request.maps.clear();
         request.file = folder / "together.png";
         QVERIFY(bakeToFiles(scene.groom, scene.surface, request, progress).ok());
         QVERIFY(readImage(request.file, ImageUse::Colour).ok());
+        for (const int bits : {0, 16}) {
+            request.bits = bits;
+            request.file = folder / "together.exr";
+            QVERIFY(bakeToFiles(scene.groom, scene.surface, request, progress).ok());
+            const auto together = readImage(request.file, ImageUse::Colour);
+            QVERIFY(together.ok());
+            // Linear, as in the file of its own.
+            const auto alone = readImage((*(bits == 0 ? floats : halves))[1], ImageUse::Colour);
+            for (int i = 0; i < 96; ++i)
+                for (int c = 0; c < 3; ++c) QCOMPARE(together->texel(i, i, c), alone->texel(i, i, c));
+        }
+        request.bits = 0;
         request.file = folder / "no" / "such" / "folder.png";
         QVERIFY(!bakeToFiles(scene.groom, scene.surface, request, progress).ok());
         progress.cancel();
