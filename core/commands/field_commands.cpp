@@ -121,7 +121,7 @@ Result<std::string> clear(CommandContext& context, Arguments arguments, Progress
     return std::string();
 }
 
-Result<std::string> fromGuides(CommandContext& context, Arguments arguments, Progress&) {
+Result<std::string> fromGuides(CommandContext& context, Arguments arguments, Progress& progress) {
     if (arguments.size() > 1) return usageError("strokes-from-guides [GROUP]");
     if (!context.hasGroom) return noGroomError();
     int group = -1;
@@ -131,7 +131,7 @@ Result<std::string> fromGuides(CommandContext& context, Arguments arguments, Pro
         group = *named;
     }
     const auto surface = context.surfaces.get(context.groom.mesh);
-    if (auto done = makeStrokesOfGuides(context.groom, *surface, group); !done) return done.error();
+    if (auto done = makeStrokesOfGuides(context.groom, surface, group, progress); !done) return done.error();
     return std::to_string(context.groom.strokes->size()) + " strokes";
 }
 

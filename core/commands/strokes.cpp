@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/commands/strokes.h"
 
-#include "core/field/grow_guides.h"
+#include "core/field/groom_field.h"
 #include "core/surface/parting_line.h"
 
 #include <algorithm>
@@ -86,13 +86,14 @@ std::uint32_t changedStroke(const Groom& before, const Groom& after) {
     return 0;
 }
 
-Result<void> makeStrokesOfGuides(Groom& groom, const Surface& surface, int group) {
-    const std::vector<FieldStroke> all = strokesFromGuides(groom, surface, group);
-    if (all.empty()) return Error{"No guide lies along the skin; place and comb guides first."};
-    const std::size_t every = (all.size() + FieldStroke::maxStrokes - 1) / FieldStroke::maxStrokes;
+Result<void> makeStrokesOfGuides(Groom& groom, std::shared_ptr<const Surface> surface, int group, Progress& progress) {
+    const auto all = agreedStrokes(groom, std::move(surface), group, progress);
+    if (!all) return all.error();
+    if (all->empty()) return Error{"No guide lies along the skin; place and comb guides first."};
+    const std::size_t every = (all->size() + FieldStroke::maxStrokes - 1) / FieldStroke::maxStrokes;
     std::vector<FieldStroke> strokes;
-    for (std::size_t i = 0; i < all.size(); i += every) {
-        strokes.push_back(all[i]);
+    for (std::size_t i = 0; i < all->size(); i += every) {
+        strokes.push_back((*all)[i]);
         strokes.back().id = static_cast<std::uint32_t>(strokes.size());
     }
     groom.strokes = Cow<std::vector<FieldStroke>>(std::move(strokes));

@@ -2,12 +2,14 @@
 // Adding, changing and removing strokes of the direction field.
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
 
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <span>
 
 namespace whorl {
@@ -27,8 +29,8 @@ Result<void> changeStroke(Groom& groom, const FieldStroke& stroke);
 Result<void> moveStroke(Groom& groom, const Surface& surface, std::uint32_t id, const glm::vec3& offset);
 /// The id of the first stroke of `after` that is new or differs from that in `before`; 0 for none.
 std::uint32_t changedStroke(const Groom& before, const Groom& after);
-/// Replaces the strokes by those that follow the guides of a group (-1: all) as they lie; of more guides than
-/// FieldStroke::maxStrokes evenly picked ones. Fails when no guide lies along the skin.
-Result<void> makeStrokesOfGuides(Groom& groom, const Surface& surface, int group);
+/// Replaces the strokes by those of agreedStrokes; of more guides than FieldStroke::maxStrokes by evenly picked ones.
+/// Fails when no guide of the group (-1: of all) lies along the skin, and when cancelled.
+Result<void> makeStrokesOfGuides(Groom& groom, std::shared_ptr<const Surface> surface, int group, Progress& progress);
 
 }  // namespace whorl

@@ -12,6 +12,12 @@ namespace whorl {
 /// groom's mesh.
 std::vector<FieldStroke> leadingStrokes(const Groom& groom, const Surface& surface);
 
+/// Strokes that lie as the guides of a group (-1: all) do: from their roots, as long as they lie along the skin. Guides
+/// that lie over each other seldom agree; these follow the field that the guides lead together, so that they do. Fewer
+/// where that has no direction. `surface` is that of the groom's mesh. Fails only when cancelled.
+Result<std::vector<FieldStroke>> agreedStrokes(const Groom& groom, std::shared_ptr<const Surface> surface, int group,
+                                               Progress& progress);
+
 /// Solver for the groom's mesh, growing area and partings. `surface` is that of the groom's mesh. Fails only when
 /// cancelled.
 Result<FieldSolver> groomFieldSolver(const Groom& groom, std::shared_ptr<const Surface> surface, Progress& progress);

@@ -168,10 +168,12 @@ void GroomActions::strokesFromGuides() {
     const std::shared_ptr<const Surface> surface = m_document.surface();
     if (!surface) return;
     Groom after = m_document.committed();
-    const Result<void> done = makeStrokesOfGuides(after, *surface, -1);
+    const Result<void> done =
+        runWithProgress<void>(&m_window, tr("Laying strokes along the guides"),
+                              [&](Progress& progress) { return makeStrokesOfGuides(after, surface, -1, progress); });
     if (done) {
         m_document.edit(std::move(after), tr("Strokes from guides"));
-    } else {
+    } else if (!done.error().cancelled) {
         m_messages.say(MessageBar::Kind::Warning, QString::fromStdString(done.error().message));
     }
 }

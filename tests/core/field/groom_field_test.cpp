@@ -2,6 +2,7 @@
 // What decides which way a groom's hair lies: strokes, guides, or gravity.
 #include "core/field/groom_field.h"
 
+#include "core/base/random.h"
 #include "core/field/grow_guides.h"
 #include "core/surface/parting_line.h"
 #include "tests/support/shapes.h"
@@ -59,6 +60,56 @@ private Q_SLOTS:
         QVERIFY(glm::distance(meanOf(groom, surface), {1, 0, 0}) < 0.02f);
         progress.cancel();
         QVERIFY(!groomField(groom, surface, progress).ok());
+    }
+
+    // Guides that lie over each other, each turned its own way by up to 60 degrees: hair lies as they do on the whole,
+    // and so do the strokes that are made of them.
+    void guidesThatDisagreeAreEvenedOut() {
+        Groom groom = testing::groomOn(testing::plane(60), 1500, 8, 0.15f);
+        const auto surface = std::make_shared<const Surface>(groom.mesh);
+        for (std::size_t i = 0; i < groom.guides.count(); ++i) {
+            const float turn = (randomFloat(9, i, 0) - 0.5f) * 2.1f;
+            std::vector<glm::vec3> points(groom.guides.points(i).begin(), groom.guides.points(i).end());
+            for (std::size_t k = 1; k < points.size(); ++k) {
+                points[k] =
+                    points[0] + glm::vec3(std::cos(turn), 0.01f, std::sin(turn)) * (0.02f * static_cast<float>(k));
+            }
+            groom.guides.setPoints(i, points);
+        }
+        Progress progress;
+        // Root mean square, degrees; that of the guides is 35.
+        const auto off = [&](const DirectionField& field) {
+            double sum = 0.0;
+            int counted = 0;
+            for (std::size_t i = 0; i < field.vertices().size(); ++i) {
+                const glm::vec3 place = groom.mesh->positions[i];
+                if (std::max(std::abs(place.x), std::abs(place.z)) > 0.4f) continue;
+                const glm::vec3 way = field.vertices()[i];
+                const auto angle = static_cast<double>(std::atan2(way.z, way.x)) * 57.3;
+                sum += angle * angle;
+                ++counted;
+            }
+            return std::sqrt(sum / counted);
+        };
+        const double led = off(*groomField(groom, surface, progress));
+        QVERIFY2(led < 12.0, qPrintable(QString::number(led)));
+        const auto strokes = agreedStrokes(groom, surface, -1, progress);
+        QVERIFY(strokes.ok());
+        QVERIFY(strokes->size() > groom.guides.count() / 2);
+        groom.strokes.edit() = *strokes;
+        const double drawn = off(*groomField(groom, surface, progress));
+        QVERIFY2(drawn < 12.0, qPrintable(QString::number(drawn)));
+        // A stroke is as long as its guide, off the rim.
+        for (const FieldStroke& stroke : *strokes) {
+            const glm::vec3 from = positionAt(*groom.mesh, stroke.points.front());
+            const glm::vec3 to = positionAt(*groom.mesh, stroke.points.back());
+            if (std::max(std::abs(from.x), std::abs(from.z)) > 0.3f) continue;
+            // Guides are 0.16 long; strokes bend.
+            QVERIFY(glm::distance(from, to) > 0.14f);
+            QVERIFY(glm::distance(from, to) < 0.1605f);
+        }
+        progress.cancel();
+        QVERIFY(!agreedStrokes(groom, surface, -1, progress).ok());
     }
 
     void parametersOfTheGroomCount() {
