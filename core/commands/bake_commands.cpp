@@ -8,8 +8,7 @@ namespace {
 using Arguments = std::span<const std::string>;
 
 constexpr const char* usage =
-    "bake-lic FILE [colour] [opacity] [flow] [height] [size TEXELS] [margin TEXELS] "
-    "[bits 8|16|32]";
+    "bake-lic FILE [colour] [opacity] [flow] [height] [size TEXELS] [margin TEXELS] [bits 8|16|32]";
 
 Result<std::string> bake(CommandContext& context, Arguments arguments, Progress& progress) {
     if (arguments.empty()) return usageError(usage);
@@ -20,8 +19,7 @@ Result<std::string> bake(CommandContext& context, Arguments arguments, Progress&
     for (std::size_t i = 1; i < arguments.size(); ++i) {
         if (arguments[i] == "bits") {
             const auto bits = i + 1 < arguments.size() ? numberFrom<int>(arguments[++i], 8, 32) : std::optional<int>();
-            if (!bits || (*bits != 8 && *bits != 16 && *bits != 32))
-                return Error{"A channel has 8, 16 or 32 bits: 8 or 16 in PNG, 16 (half floats) or 32 in EXR."};
+            if (!bits) return Error{"A channel has 8 or 16 bits in PNG, and 16 (half floats) or 32 in EXR."};
             request.bits = *bits;
             continue;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hair texture over whole meshes, against the reference place by place.
+#include "core/base/correlation.h"
 #include "core/base/parallel.h"
 #include "core/base/random.h"
 #include "core/base/simd.h"
@@ -83,21 +84,6 @@ Scene sceneOf(std::string name, Groom groom) {
     for (const char* map : {"dab density", "dab length", "dab grain"})
         scene.groom.maps.set(map, Map(1024, 1024, 1, TexelFormat::U8, 1.0f));
     return scene;
-}
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ma += a[i] / n;
-        mb += b[i] / n;
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-        ab += (a[i] - ma) * (b[i] - mb);
-    }
-    return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
 bool same(const LicTexture& a, const LicTexture& b) {

@@ -251,17 +251,17 @@ void AmbientVolume::build(const Strands& strands, const HairDetail& detail) {
                         const int ny = y + way.y;
                         const int nz = z + way.z;
                         const auto at = static_cast<std::size_t>((z * n + y) * n + x);
-                        float far = 0.0f;
+                        float beyond = 0.0f;  // hair from the next cell on
+                        float far = 0.0f;     // and from the one behind that
                         float near = 0.5f * static_cast<float>(counts[at]) * length / fixedPoint;
                         if (nx >= 0 && nx < n && ny >= 0 && ny < n && nz >= 0 && nz < n) {
                             const auto before = static_cast<std::size_t>((nz * n + ny) * n + nx);
                             const float neighbour = static_cast<float>(counts[before]) * length / fixedPoint;
                             far = sums[before];
                             near += neighbour;
-                            sums[at] = far + neighbour;
-                        } else {
-                            sums[at] = 0.0f;
+                            beyond = far + neighbour;
                         }
+                        sums[at] = beyond;
                         open[w][at] = std::exp(-1.1f * (far + near / (1.0f + near / nearCover)));
                     }
                 }

@@ -2,6 +2,7 @@
 // Grooms with a direction field for tests of hair texture, and measures of what is painted on them.
 #pragma once
 
+#include "core/base/correlation.h"
 #include "core/field/direction_field.h"
 #include "core/lic/painter.h"
 #include "core/model/groom.h"
@@ -42,8 +43,6 @@ std::optional<std::size_t> texelOf(const LicPainter& painter, const TexelAtlas::
 /// The same by a place of the skin.
 std::size_t texelAt(const LicTexture& texture, const SurfacePoint& at);
 
-/// Pearson's; as many of one as of the other.
-double correlation(const std::vector<double>& a, const std::vector<double>& b);
 float degreesBetween(const glm::vec3& a, const glm::vec3& b);
 
 }  // namespace whorl::testing

@@ -6,6 +6,7 @@
 #include "core/hair/generate.h"
 #include "core/hair/reference.h"
 #include "core/io/document.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -62,19 +63,7 @@ Strands grown(const Groom& groom, std::uint32_t hairs = 1500) {
     GenerateOptions options;
     options.hairCount = hairs;
     options.time = 0.4f;
-    Generator generator;
-    Progress progress;
-    Result<Strands> strands = generator.generate(groom, options, progress);
-    return strands ? std::move(*strands) : Strands{};
-}
-
-bool sameShape(const Strands& a, std::size_t i, const Strands& b, std::size_t j) {
-    const std::size_t first = a.firstVertex[i], other = b.firstVertex[j], count = a.firstVertex[i + 1] - first;
-    if (b.firstVertex[j + 1] - other != count) return false;
-    for (std::size_t v = 0; v < count; ++v)
-        if (a.positions[first + v] != b.positions[other + v] || a.normals[first + v] != b.normals[other + v])
-            return false;
-    return true;
+    return testing::grown(groom, options);
 }
 
 }  // namespace
@@ -118,7 +107,7 @@ private Q_SLOTS:
             std::size_t kept = 0, changed = 0, crossed = 0;
             for (std::size_t i = 0; i < before.count(); ++i) {
                 const glm::vec3 root = positionAt(*groom.mesh, before.roots[i]);
-                const bool same = sameShape(before, i, after, i);
+                const bool same = testing::sameShape(before, i, after, i);
                 if ((root.x - line) * moved > beside) {
                     changed += !same;
                 } else if ((root.x - line) * moved < -beside) {

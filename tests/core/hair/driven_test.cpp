@@ -5,6 +5,7 @@
 #include "core/hair/generate.h"
 #include "core/hair/reference.h"
 #include "core/param/path.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -99,21 +100,7 @@ Groom drivenBy(Groom groom, const std::string& path, const std::string& map) {
 Strands grown(const Groom& groom) {
     GenerateOptions options;
     options.time = 0.7f;
-    Generator generator;
-    Progress progress;
-    Result<Strands> strands = generator.generate(groom, options, progress);
-    return strands ? std::move(*strands) : Strands{};
-}
-
-bool sameHair(const Strands& a, std::size_t i, const Strands& b, std::size_t j) {
-    const std::size_t first = a.firstVertex[i], other = b.firstVertex[j], count = a.firstVertex[i + 1] - first;
-    if (b.firstVertex[j + 1] - other != count) return false;
-    for (std::size_t v = 0; v < count; ++v) {
-        if (a.positions[first + v] != b.positions[other + v] || a.normals[first + v] != b.normals[other + v] ||
-            a.widths[first + v] != b.widths[other + v] || a.colours[first + v] != b.colours[other + v])
-            return false;
-    }
-    return true;
+    return testing::grown(groom, options);
 }
 
 }  // namespace
@@ -158,15 +145,15 @@ private Q_SLOTS:
         QCOMPARE(both.ids, right.ids);
         std::size_t leftHairs = 0, rightHairs = 0, differ = 0;
         for (std::size_t i = 0; i < both.count(); ++i) {
-            differ += !sameHair(left, i, right, i);
+            differ += !testing::sameHair(left, i, right, i);
             // Hairs next to the line may belong to a lock beyond it.
             const float u = both.rootUvs[i].x;
             if (u > 0.05f && u < 0.35f) {
                 ++leftHairs;
-                QVERIFY2(sameHair(both, i, left, i), qPrintable(QString("hair %1 at %2").arg(i).arg(u)));
+                QVERIFY2(testing::sameHair(both, i, left, i), qPrintable(QString("hair %1 at %2").arg(i).arg(u)));
             } else if (u > 0.65f && u < 0.95f) {
                 ++rightHairs;
-                QVERIFY2(sameHair(both, i, right, i), qPrintable(QString("hair %1 at %2").arg(i).arg(u)));
+                QVERIFY2(testing::sameHair(both, i, right, i), qPrintable(QString("hair %1 at %2").arg(i).arg(u)));
             }
         }
         QVERIFY(leftHairs > 150 && rightHairs > 150);

@@ -6,6 +6,7 @@
 #include "core/hair/curve.h"
 #include "core/hair/reference.h"
 #include "core/sampling/density.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -30,12 +31,6 @@ Strands grown(const Groom& groom, GenerateOptions options = {}) {
     Progress progress;
     Result<Strands> strands = generator.generate(groom, options, progress);
     return strands ? std::move(*strands) : Strands{};
-}
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
 }
 
 GeneralParams& general(Groom& groom, std::size_t group = 0) {
@@ -182,7 +177,7 @@ private Q_SLOTS:
         setSimdLevel(bestSimdLevel());
         GenerateOptions options;
         options.hairCount = count;
-        QCOMPARE(digestOf(grown(groom, options)), expected);
+        QCOMPARE(testing::digestOf(grown(groom, options)), expected);
         Groom other = groom;
         other.counts.edit().seed += 1;
         QVERIFY(*hairDigest(other, 1, count, progress) != expected);
@@ -191,7 +186,7 @@ private Q_SLOTS:
     void streamingGivesTheSameInAnyBlockSize() {
         const Groom groom = busyGroom();
         GenerateOptions options{2000u, 1, 3};
-        const std::uint64_t expected = digestOf(grown(groom, options));
+        const std::uint64_t expected = testing::digestOf(grown(groom, options));
         for (const std::uint32_t size : {1u, 17u, 5000u}) {
             Generator generator;
             Progress progress;
@@ -277,17 +272,17 @@ private Q_SLOTS:
         Groom groom = busyGroom();
         for (Group& group : groom.groups.edit()) group.params.frizz.root.value = group.params.frizz.tip.value = 0.0f;
         for (Group& group : groom.groups.edit()) group.params.kink.tip.value = 0.0f;
-        const std::uint64_t expected = digestOf(grown(groom, {1000u}));
+        const std::uint64_t expected = testing::digestOf(grown(groom, {1000u}));
         for (Group& group : groom.groups.edit()) {
             group.params.frizz.frequency.value = glm::vec3(700.0f);
             group.params.kink.frequency.value = glm::vec3(900.0f);
         }
-        QCOMPARE(digestOf(grown(groom, {1000u})), expected);
+        QCOMPARE(testing::digestOf(grown(groom, {1000u})), expected);
         groom.maps.set("black", Map(4, 4, 1, TexelFormat::U8, 0.0f));
         for (Group& group : groom.groups.edit()) group.params.frizz.tip = {0.5f, "black"};
-        QCOMPARE(digestOf(grown(groom, {1000u})), expected);
+        QCOMPARE(testing::digestOf(grown(groom, {1000u})), expected);
         for (Group& group : groom.groups.edit()) group.params.frizz.tip = {0.5f, ""};
-        QVERIFY(digestOf(grown(groom, {1000u})) != expected);
+        QVERIFY(testing::digestOf(grown(groom, {1000u})) != expected);
     }
 
     void aHairNeverDrawsOnAnotherGroup() {
@@ -367,7 +362,7 @@ private Q_SLOTS:
             groom, {1000u}, 10, [](const Strands&) { return false; }, progress));
         const Result<Strands> all = generator.generate(groom, {1000u}, progress);
         QVERIFY(all);
-        QCOMPARE(digestOf(*all), digestOf(grown(groom, {1000u})));
+        QCOMPARE(testing::digestOf(*all), testing::digestOf(grown(groom, {1000u})));
     }
 
     void aKnownHair() {

@@ -2,6 +2,7 @@
 #include "core/base/random.h"
 #include "core/hair/changes.h"
 #include "core/hair/generate.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <QtTest>
@@ -9,12 +10,6 @@
 using namespace whorl;
 
 namespace {
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
-}
 
 // One random edit of the kinds that the editor makes.
 void edit(Groom& groom, std::uint32_t seed, std::uint64_t step) {
@@ -132,12 +127,12 @@ private Q_SLOTS:
                 const Result<std::shared_ptr<const Strands>> got = used.generateShared(groom, options, progress);
                 QVERIFY(expected && got);
                 QVERIFY2(
-                    digestOf(**got) == digestOf(*expected),
+                    testing::digestOf(**got) == testing::digestOf(*expected),
                     qPrintable(
                         QString("seed %1 step %2 edit %3").arg(seed).arg(step).arg(randomBits(seed, step, 0) % 22)));
                 // Held for none, one or a few steps; what is held never changes.
-                if (step % 7 != 3) held.emplace_back(*got, digestOf(*expected));
-                for (const auto& [strands, digest] : held) QCOMPARE(digestOf(*strands), digest);
+                if (step % 7 != 3) held.emplace_back(*got, testing::digestOf(*expected));
+                for (const auto& [strands, digest] : held) QCOMPARE(testing::digestOf(*strands), digest);
                 if (step % 3 == 0) held.clear();
             }
         }
@@ -218,7 +213,7 @@ private Q_SLOTS:
         }
         QVERIFY2(moved > 0 && moved < before.count() / 10, qPrintable(QString::number(moved)));
         Generator fresh;
-        QCOMPARE(digestOf(after), digestOf(*fresh.generate(groom, {4000u}, progress)));
+        QCOMPARE(testing::digestOf(after), testing::digestOf(*fresh.generate(groom, {4000u}, progress)));
     }
 
     void aCombMovesOnlyHairsOfItsGuides() {

@@ -6,6 +6,7 @@
 #include "core/hair/generate.h"
 #include "core/hair/reference.h"
 #include "core/io/document.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -82,6 +83,8 @@ GenerateOptions moving(std::uint32_t part = 0, std::uint32_t parts = 1) {
     return options;
 }
 
+using testing::digestOf;
+
 // Digest of all hair made in parts, in blocks of so many.
 std::uint64_t digestOf(const Groom& groom, std::uint32_t parts = 1, std::uint32_t block = 1000) {
     Generator generator;
@@ -103,16 +106,7 @@ std::uint64_t digestOf(const Groom& groom, std::uint32_t parts = 1, std::uint32_
 }
 
 Strands grown(const Groom& groom) {
-    Generator generator;
-    Progress progress;
-    Result<Strands> strands = generator.generate(groom, moving(), progress);
-    return strands ? std::move(*strands) : Strands{};
-}
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
+    return testing::grown(groom, moving());
 }
 
 // Calm hair on a ball, to see one stage at a time.

@@ -5,6 +5,7 @@
 #include "core/hair/generate.h"
 #include "core/hair/prepared.h"
 #include "core/hair/thin.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -36,16 +37,7 @@ HairParams& params(Groom& groom) {
 }
 
 Strands grown(const Groom& groom, GenerateOptions options = {400u}) {
-    Generator generator;
-    Progress progress;
-    Result<Strands> strands = generator.generate(groom, options, progress);
-    return strands ? std::move(*strands) : Strands{};
-}
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
+    return testing::grown(groom, options);
 }
 
 std::span<const glm::vec3> pointsOf(const Strands& strands, std::size_t i) {
@@ -189,7 +181,7 @@ private Q_SLOTS:
         Progress progress;
         const std::uint64_t expected = *hairDigest(groom, 1, 500, progress);
         for (const std::uint32_t parts : {2u, 5u}) QCOMPARE(*hairDigest(groom, parts, 500, progress), expected);
-        QCOMPARE(digestOf(grown(groom, {500u})), expected);
+        QCOMPARE(testing::digestOf(grown(groom, {500u})), expected);
     }
 
     void skippedVerticesWereNearlyStraight() {
@@ -244,12 +236,12 @@ private Q_SLOTS:
             options.time = time;
             return grown(groom, options);
         };
-        const std::uint64_t still = digestOf(at(0.0f));
-        QCOMPARE(digestOf(at(3.0f)), still);
+        const std::uint64_t still = testing::digestOf(at(0.0f));
+        QCOMPARE(testing::digestOf(at(3.0f)), still);
         params(groom).frizz.animation.value = 0.8f;
-        QCOMPARE(digestOf(at(0.0f)), still);
+        QCOMPARE(testing::digestOf(at(0.0f)), still);
         const Strands start = at(0.0f), soon = at(0.02f), later = at(2.0f);
-        QVERIFY(digestOf(later) != still);
+        QVERIFY(testing::digestOf(later) != still);
         // A little later is a little way off.
         float little = 0, far = 0;
         for (std::size_t v = 0; v < start.vertexCount(); ++v) {
@@ -259,9 +251,9 @@ private Q_SLOTS:
         QVERIFY(little > 0.0f && little < 0.1f * far && far < 0.08f);
         // Hair with a frizz of its own moves as well.
         params(groom).frizz.frequency.value = glm::vec3(5000.0f);
-        QVERIFY(digestOf(at(0.0f)) != digestOf(at(0.5f)));
+        QVERIFY(testing::digestOf(at(0.0f)) != testing::digestOf(at(0.5f)));
         params(groom).frizz.speed.value = 0.0f;
-        QCOMPARE(digestOf(at(0.0f)), digestOf(at(0.5f)));
+        QCOMPARE(testing::digestOf(at(0.0f)), testing::digestOf(at(0.5f)));
     }
 
     void aUsedGeneratorFollowsTime() {
@@ -274,8 +266,8 @@ private Q_SLOTS:
         for (const float time : {0.0f, 0.5f, 0.5f, 1.0f, 0.0f}) {
             GenerateOptions options{300u};
             options.time = time;
-            const std::uint64_t expected = digestOf(grown(groom, options));
-            QCOMPARE(digestOf(*used.generate(groom, options, progress)), expected);
+            const std::uint64_t expected = testing::digestOf(grown(groom, options));
+            QCOMPARE(testing::digestOf(*used.generate(groom, options, progress)), expected);
             Hasher hasher;
             QVERIFY(prepared->stream(
                 options, 100,

@@ -8,6 +8,7 @@
 #include "core/hair/reference.h"
 #include "core/model/modifiers/rows.h"
 #include "core/param/path.h"
+#include "tests/support/hair.h"
 #include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
@@ -46,16 +47,7 @@ Groom with(Groom groom, std::string_view kind, const std::vector<std::pair<std::
 }
 
 Strands grown(const Groom& groom, std::uint32_t count = 600) {
-    Generator generator;
-    Progress progress;
-    Result<Strands> strands = generator.generate(groom, {count}, progress);
-    return strands ? std::move(*strands) : Strands{};
-}
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
+    return testing::grown(groom, {count});
 }
 
 std::span<const glm::vec3> pointsOf(const Strands& strands, std::size_t i) {
@@ -209,16 +201,16 @@ private Q_SLOTS:
 
     void nothingAskedNothingChanged() {
         const Groom groom = bentGroom();
-        const std::uint64_t expected = digestOf(grown(groom));
+        const std::uint64_t expected = testing::digestOf(grown(groom));
         for (const std::string_view kind : kindIds()) {
-            QVERIFY2(digestOf(grown(with(groom, kind))) != expected, std::string(kind).c_str());
-            QCOMPARE(digestOf(grown(with(groom, kind, {{"amount", 0.0}}))), expected);
-            QCOMPARE(digestOf(grown(with(groom, kind, {{"on", false}}))), expected);
+            QVERIFY2(testing::digestOf(grown(with(groom, kind))) != expected, std::string(kind).c_str());
+            QCOMPARE(testing::digestOf(grown(with(groom, kind, {{"amount", 0.0}}))), expected);
+            QCOMPARE(testing::digestOf(grown(with(groom, kind, {{"on", false}}))), expected);
             Groom black = with(groom, kind);
             black.maps.set("black", Map(4, 4, 1, TexelFormat::U8, 0.0f));
             const std::string path = "groups/hair/modifiers/" + std::string(kind) + "/amount/map";
             QVERIFY(setGroomValue(black, path, std::string("black")));
-            QCOMPARE(digestOf(grown(black)), expected);
+            QCOMPARE(testing::digestOf(grown(black)), expected);
         }
     }
 
@@ -271,7 +263,7 @@ private Q_SLOTS:
         Groom one = with(with(groom, "clump", {{"count", 30.0}}), "curl");
         Groom other = one;
         QVERIFY(moveModifier(other, 0, "curl", 0));
-        QVERIFY(digestOf(grown(one)) != digestOf(grown(other)));
+        QVERIFY(testing::digestOf(grown(one)) != testing::digestOf(grown(other)));
     }
 
     void clumpsGather() {

@@ -4,6 +4,7 @@
 #include "core/base/random.h"
 #include "core/hair/curve.h"
 #include "core/hair/reference.h"
+#include "tests/support/hair.h"
 
 #include <glm/geometric.hpp>
 
@@ -53,12 +54,6 @@ Strands slice(const Strands& all, std::size_t begin, std::size_t end) {
         part.groups.push_back(all.groups[i]);
     }
     return part;
-}
-
-std::uint64_t digestOf(const Strands& strands) {
-    Hasher hasher;
-    strands.addTo(hasher);
-    return hasher.digest();
 }
 
 }  // namespace
@@ -127,15 +122,15 @@ private Q_SLOTS:
             Hasher hasher;
             slice(all, 0, cut).addTo(hasher);
             slice(all, cut, 20).addTo(hasher);
-            QCOMPARE(hasher.digest(), digestOf(all));
+            QCOMPARE(hasher.digest(), testing::digestOf(all));
             Strands joined = slice(all, 0, cut);
             joined.append(slice(all, cut, 20));
-            QCOMPARE(digestOf(joined), digestOf(all));
+            QCOMPARE(testing::digestOf(joined), testing::digestOf(all));
             QCOMPARE(joined.firstVertex, all.firstVertex);
         }
         Strands changed = all;
         changed.normals.back().x = 0.5f;
-        QVERIFY(digestOf(changed) != digestOf(all));
+        QVERIFY(testing::digestOf(changed) != testing::digestOf(all));
         Strands twice = all;
         twice.append(twice);
         QCOMPARE(twice.count(), std::size_t{40});

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 using namespace whorl;
 using testing::densityGroom;
@@ -117,6 +118,16 @@ double spreadOfCounts(const Groom& groom, const RootSampler& sampler, double wan
     return used > 0 ? sum / used : 1e9;
 }
 
+/// Nothing without the folder of real data.
+std::optional<SurfaceMesh> meshOf(const QString& file) {
+    const auto path = testing::realData(file.toStdString());
+    if (!path) return std::nullopt;
+    Progress progress;
+    auto imported = importMesh(*path, progress);
+    if (!imported) qFatal("%s", imported.error().message.c_str());
+    return std::move(imported->mesh);
+}
+
 }  // namespace
 
 class RealDensityTest : public QObject {
@@ -139,12 +150,9 @@ private Q_SLOTS:
     void hairsFollowTheDensity() {
         QFETCH(QString, file);
         QFETCH(QString, map);
-        const auto path = testing::realData(file.toStdString());
-        if (!path) QSKIP("The folder of real meshes is not there (WHORL_TEST_DATA).");
-        Progress progress;
-        auto imported = importMesh(*path, progress);
-        QVERIFY(imported.ok());
-        Groom groom = densityGroom(std::move(imported->mesh), mapNamed(map));
+        std::optional<SurfaceMesh> mesh = meshOf(file);
+        if (!mesh) QSKIP("The folder of real meshes is not there (WHORL_TEST_DATA).");
+        Groom groom = densityGroom(std::move(*mesh), mapNamed(map));
         checkReference(groom);
         checkHair(groom, "hair");
         const RootSampler sampler = samplerOf(groom);
@@ -167,12 +175,9 @@ private Q_SLOTS:
     void overManySeedsNothingIsOff() {
         QFETCH(QString, file);
         QFETCH(QString, map);
-        const auto path = testing::realData(file.toStdString());
-        if (!path) QSKIP("The folder of real meshes is not there (WHORL_TEST_DATA).");
-        Progress progress;
-        auto imported = importMesh(*path, progress);
-        QVERIFY(imported.ok());
-        const Groom groom = densityGroom(std::move(imported->mesh), mapNamed(map));
+        std::optional<SurfaceMesh> mesh = meshOf(file);
+        if (!mesh) QSKIP("The folder of real meshes is not there (WHORL_TEST_DATA).");
+        const Groom groom = densityGroom(std::move(*mesh), mapNamed(map));
         const RootSampler sampler = samplerOf(groom);
         testing::FineBins bins(groom);
         for (std::uint32_t seed = 1; seed <= 24; ++seed)
