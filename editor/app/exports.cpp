@@ -4,6 +4,7 @@
 #include "core/io/hair_file.h"
 #include "core/io/image.h"
 #include "core/io/package.h"
+#include "core/lic/live_texture.h"
 #include "editor/app/actions.h"
 #include "editor/app/dialogs/bake_dialog.h"
 #include "editor/app/document.h"
@@ -158,20 +159,32 @@ bool Exports::renderPicture(const std::filesystem::path& file, int width, int he
     if (!surface) return false;
     ViewSettings settings = m_state.viewOptions().settings();
     settings.showGuides = false;
+    const int licSize = m_state.viewOptions().licSize();
     Result<Camera> camera = m_viewport ? Result<Camera>(m_viewport->camera())
                                        : Camera::named("three-quarter", surface->bounds, {width, height});
     const QString name = textOf(file.filename());
     const Result<void> done =
         runWithProgress<void>(&m_window, tr("Rendering %1").arg(name), [&](Progress& progress) -> Result<void> {
             if (!camera) return camera.error();
-            Generator generator;
-            generator.setSurface(surface);
-            Result<Strands> strands = generator.generate(groom, {}, progress);
-            if (!strands) return strands.error();
+            std::shared_ptr<const Strands> strands;
+            if (settings.showHair) {
+                Generator generator;
+                generator.setSurface(surface);
+                Result<Strands> made = generator.generate(groom, {}, progress);
+                if (!made) return made.error();
+                strands = std::make_shared<const Strands>(std::move(*made));
+            }
+            std::shared_ptr<const LicTexture> texture;
+            if (settings.showLic) {
+                auto made = LiveTexture().update(groom, surface, licSize, progress);
+                if (!made) return made.error();
+                texture = std::move(*made);
+            }
             Result<OffscreenRenderer> offscreen = OffscreenRenderer::create();
             if (!offscreen) return offscreen.error();
             offscreen->renderer().setGroom(groom, surface);
-            offscreen->renderer().setStrands(std::make_shared<const Strands>(std::move(*strands)));
+            offscreen->renderer().setStrands(strands);
+            offscreen->renderer().setLicTexture(texture);
             const Picture picture = offscreen->draw(*camera, settings, {}, width, height);
             return writePixels(picture.pixels, picture.width, picture.height, 4, file);
         });

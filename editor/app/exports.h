@@ -31,7 +31,7 @@ public:
     bool exportHair(const std::filesystem::path& file);
     /// Hair texture as images in the mesh's UVs.
     bool bakeLic(const BakeRequest& request);
-    /// The view's camera and light, with all hairs, in any size.
+    /// The view's camera, light and choice of hair or its texture, with all hairs, in any size.
     bool renderPicture(const std::filesystem::path& file, int width, int height);
 
 private:

@@ -2,6 +2,7 @@
 // Hair texture in the real window: the switch in the View panel, and that it follows parameters and guides.
 #include "core/io/document.h"
 #include "core/param/path.h"
+#include "editor/app/exports.h"
 #include "editor/app/files.h"
 #include "editor/app/widgets/param_form.h"
 #include "tests/editor/window.h"
@@ -89,6 +90,28 @@ private Q_SLOTS:
         QVERIFY(differing(both, hair) > 500);
         choose("Hair");
         QCOMPARE(differing(picture(), hair), 0);
+    }
+
+    void renderedPicturesShowWhatTheViewShows() {
+        const auto rendered = [&] {
+            const std::filesystem::path file = m_folder / "rendered.png";
+            [&] { QVERIFY(m_window->exports().renderPicture(file, 500, 400)); }();
+            return QImage(textOf(file)).convertToFormat(QImage::Format_RGB32);
+        };
+        const QImage hair = rendered();
+        QCOMPARE(hair.size(), QSize(500, 400));
+        choose("Texture");
+        const QImage texture = rendered();
+        choose("Both");
+        const QImage both = rendered();
+        ViewOptions bare = m_window->state().viewOptions();
+        bare.showHair = false;
+        m_window->state().setViewOptions(bare);
+        const QImage skin = rendered();
+        QVERIFY(differing(texture, skin) > 5000);
+        QVERIFY(differing(texture, hair) > 5000);
+        QVERIFY(differing(both, hair) > 500);
+        QVERIFY(differing(both, texture) > 500);
     }
 
     void itFollowsParameters() {
