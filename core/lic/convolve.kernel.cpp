@@ -92,7 +92,8 @@ void land(const ConvolveArrays& a, std::int32_t x, std::int32_t y, ConvolveBlock
 }
 
 // The step from a special texel; false where the streamline ends.
-bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::int32_t way, ConvolveBlock& block) {
+bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::int32_t way, std::int32_t& stays,
+            ConvolveBlock& block) {
     const Special* special = specialAt(a, texelAt(a, atX, atY));
     if (!special) return false;
     const std::int32_t limit = a.side * one;
@@ -104,6 +105,7 @@ bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::
         x = within(special->toX + whole(special->turn[0] * dx + special->turn[1] * dy), limit);
         y = within(special->toY + whole(special->turn[2] * dx + special->turn[3] * dy), limit);
         land(a, x, y, block);
+        stays = 0;
         const Special* there = specialAt(a, texelAt(a, x, y));
         cut = there && there->jumps == 0 ? there : nullptr;
     }
@@ -120,6 +122,7 @@ struct Lines {
     Ints x, y;
     Words words;
     std::uint32_t special;  // lanes that stand on special texels
+    Ints stays;             // lanes with all bits set: those that have gone over no seam
 };
 
 // A streamline that has ended stays on the first word, which is zero: no step, no noise.
@@ -145,7 +148,10 @@ __attribute__((noinline)) void stepSpecial(const ConvolveArrays& a, Lines& lines
     for (std::uint32_t left = lines.special; left != 0; left &= left - 1) {
         const int lane = __builtin_ctz(left);
         std::int32_t x = fromX[lane], y = fromY[lane];
-        if (stepOn(a, x, y, ways[lane], block)) {
+        std::int32_t stays = lines.stays[lane];
+        const bool goesOn = stepOn(a, x, y, ways[lane], stays, block);
+        lines.stays[lane] = stays;
+        if (goesOn) {
             lines.x[lane] = x;
             lines.y[lane] = y;
         } else {
@@ -155,12 +161,37 @@ __attribute__((noinline)) void stepSpecial(const ConvolveArrays& a, Lines& lines
     }
 }
 
+// Where streamlines have been. Those that stay on the first word count as nowhere.
+struct Reach {
+    Words left = ~Words{}, top = ~Words{};
+    Ints right{}, bottom{};
+    void add(const Ints& x, const Ints& y, const Ints& stays) {
+        const Ints toX = x & stays, toY = y & stays;
+        const Words fromX = (Words)(toX - 1), fromY = (Words)(toY - 1);
+        left = fromX < left ? fromX : left;
+        top = fromY < top ? fromY : top;
+        right = toX > right ? toX : right;
+        bottom = toY > bottom ? toY : bottom;
+    }
+    void addTo(ConvolveBlock& block) const {
+        for (int l = 0; l < lanes; ++l) {
+            if (right[l] == 0) continue;
+            const int fromX = static_cast<int>(left[l] >> fraction), fromY = static_cast<int>(top[l] >> fraction);
+            block.left = fromX < block.left ? fromX : block.left;
+            block.top = fromY < block.top ? fromY : block.top;
+            block.right = right[l] >> fraction > block.right ? right[l] >> fraction : block.right;
+            block.bottom = bottom[l] >> fraction > block.bottom ? bottom[l] >> fraction : block.bottom;
+        }
+    }
+};
+
 template <bool Scaled>
 void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
     constexpr int count = 2 * rows;
     // Two of them, there and back, start in one row. In registers, but for `totals`: the sums of the weights up to
     // where each ends.
-    Ints x[count], y[count], ways[count], totals[count];
+    Ints x[count], y[count], ways[count], totals[count], stays[count];
+    Reach reach;
     Words words[count], sums[count], hair[rows];
     std::uint32_t special[count];
     Ints column{};
@@ -172,6 +203,7 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
         gather(a.words, (start.y >> fraction) * a.side + (start.x >> fraction), hair[r]);
         start.words = hair[r];
         start.special = marked(hair[r]);
+        start.stays = ~Ints{};
         Ints whole = Ints{} + a.totals[a.steps];
         finishEnded(start, 0, whole);
         Ints forward = Ints{} + one;
@@ -185,6 +217,8 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
             special[i] = start.special;
             totals[i] = whole;
             sums[i] = Words{};
+            stays[i] = ~Ints{};
+            reach.add(x[i], y[i], stays[i]);
             ways[i] = way == 0 ? forward : -forward;
         }
     }
@@ -202,11 +236,12 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
             }
             const Ints nextX = x[i] + dx, nextY = y[i] + dy;
             if (__builtin_expect(special[i] != 0, 0)) {
-                Lines some{nextX, nextY, words[i], special[i]};
+                Lines some{nextX, nextY, words[i], special[i], stays[i]};
                 Ints ended = totals[i];
                 const Ints fromX = x[i], fromY = y[i], way = ways[i];
                 stepSpecial(a, some, fromX, fromY, way, before, ended, block);
                 totals[i] = ended;
+                stays[i] = some.stays;
                 x[i] = some.x;
                 y[i] = some.y;
             } else {
@@ -216,7 +251,7 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
             gather(a.words, (y[i] >> fraction) * a.side + (x[i] >> fraction), words[i]);
             special[i] = marked(words[i]);
             if (__builtin_expect(special[i] != 0, 0)) {
-                Lines some{x[i], y[i], words[i], special[i]};
+                Lines some{x[i], y[i], words[i], special[i], stays[i]};
                 Ints ended = totals[i];
                 finishEnded(some, before, ended);
                 totals[i] = ended;
@@ -227,7 +262,10 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
             }
             addNoise(words[i], weight, sums[i]);
         }
+        if (k % ConvolveBlock::seen == 0)
+            for (int i = 0; i < count; ++i) reach.add(x[i], y[i], stays[i]);
     }
+    reach.addTo(block);
     for (int r = 0; r < rows; ++r) {
         Words all = sums[2 * r] + sums[2 * r + 1];
         addNoise(hair[r], a.weights[0], all);
@@ -240,6 +278,7 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
             const float other =
                 static_cast<float>(static_cast<std::int32_t>(all[l] >> 16)) * (255.0f / hairMost) / total + 0.5f;
             const int at = (first + r) * lanes + l;
+            block.grows[at] = grows ? 1 : 0;
             block.light[at] = grows ? static_cast<std::uint8_t>(static_cast<std::int32_t>(light)) : 0;
             block.hair[at] = grows ? static_cast<std::uint8_t>(static_cast<std::int32_t>(other)) : 0;
         }
@@ -250,6 +289,8 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
 
 void convolveBlock(const ConvolveArrays& a, ConvolveBlock& block) {
     block.landingCount = 0;
+    block.left = block.top = a.side;
+    block.right = block.bottom = -1;
     for (int first = 0; first < 16; first += rows) {
         if (block.lengths) {
             convolveRows<true>(a, block, first);

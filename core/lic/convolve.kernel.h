@@ -26,9 +26,14 @@ struct ConvolveBlock {
     const std::uint16_t* lengths;  ///< share of the steps' length, 1024: all of it; null: everywhere
     std::uint8_t light[256];       ///< out: 0 to 255
     std::uint8_t hair[256];
+    std::uint8_t grows[256];  ///< out: 0 where streamlines end at once
     static constexpr int mostLandings = 48;
     std::uint32_t landings[mostLandings];  ///< out: blocks (row by row) in which streamlines go on beyond seams
     int landingCount;                      ///< one above `mostLandings`: there are more
+    /// Out: texels between which every fourth place of the streamlines lies, as far as they have not gone over a seam;
+    /// none where `right` is below `left`.
+    int left, right, top, bottom;
+    static constexpr int seen = 4;
 };
 
 #define WHORL_CONVOLVE_KERNELS(level)                                       \

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace whorl {
@@ -15,15 +16,15 @@ namespace {
 
 constexpr std::size_t blocksAtOnce = 16;
 
-std::uint8_t encoded(float linear) {
-    static const std::vector<std::uint8_t> table = [] {
-        std::vector<std::uint8_t> bytes;
+const std::uint32_t* encodedTable() {
+    static const std::vector<std::uint32_t> table = [] {
+        std::vector<std::uint32_t> bytes;
         for (int i = 0; i < 4096; ++i)
-            bytes.push_back(static_cast<std::uint8_t>(srgbFromLinear(static_cast<float>(i) / 4095.0f) * 255.0f + 0.5f));
+            bytes.push_back(
+                static_cast<std::uint32_t>(srgbFromLinear(static_cast<float>(i) / 4095.0f) * 255.0f + 0.5f));
         return bytes;
     }();
-    const float limited = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-    return table[static_cast<std::size_t>(limited * 4095.0f + 0.5f)];
+    return table.data();
 }
 
 // Goes up and down evenly between -1 and 1, `turns` times from 0 to 1.
@@ -76,7 +77,7 @@ LicColours::Variation LicColours::variation(float hue, float value, float mutant
     }
     if (mutants > 0.0f) {
         const float inside = (mutants - rank) / std::min(0.5f * mutants, 0.05f);
-        v.mutant = std::clamp(0.5f + inside, 0.0f, 1.0f);
+        v.share = std::clamp(0.5f + inside, 0.0f, 1.0f);
     }
     return v;
 }
@@ -100,15 +101,19 @@ void LicColours::set(const Groom& groom, std::span<const std::uint8_t> blocks) {
                             share(colour.mutants, 1.0f)};
         m_varies = m_varies || source.hue.value > 0.0f || source.value.value > 0.0f || source.mutants.value > 0.0f;
         apart = apart || source.hue.map || source.value.map || source.mutants.map;
-        Entry entry{colour.mutant.value, {}};
-        for (int i = 0; i < 256; ++i)
-            entry.ranks.push_back(
-                variation(source.hue.value, source.value.value, source.mutants.value, static_cast<float>(i) / 255.0f));
+        LicVariations entry;
+        for (int k = 0; k < 3; ++k) entry.mutant[k] = colour.mutant.value[k];
+        for (int i = 0; i < 256; ++i) {
+            const Variation v =
+                variation(source.hue.value, source.value.value, source.mutants.value, static_cast<float>(i) / 255.0f);
+            entry.share[i] = v.share;
+            for (int k = 0; k < 3; ++k) entry.turn[k][i] = v.turn[k];
+        }
         sources.push_back(source);
-        m_entries.push_back(std::move(entry));
+        m_entries.push_back(entry);
     }
     const std::size_t count = m_atlas.slots().size();
-    m_places.resize(count);
+    for (std::vector<float>& channel : m_places) channel.resize(count);
     m_groups.resize(sources.size() > 1 ? count : 0);
     m_differences.resize(apart ? count : 0);
     const DensityLookup groups(groom);
@@ -121,28 +126,47 @@ void LicColours::set(const Groom& groom, std::span<const std::uint8_t> blocks) {
                 const int group = groups.groupAt(uv);
                 if (!m_groups.empty()) m_groups[i] = static_cast<std::uint8_t>(group);
                 const Source& source = sources[static_cast<std::size_t>(group)];
-                m_places[i] = glm::mix(source.root.at(uv), source.tip.at(uv), place);
+                const glm::vec3 colour = glm::mix(source.root.at(uv), source.tip.at(uv), place);
+                for (int k = 0; k < 3; ++k) m_places[k][i] = colour[k];
                 if (apart) m_differences[i] = {source.hue.at(uv), source.value.at(uv), source.mutants.at(uv)};
             }
         }
     });
 }
 
-LicColour LicColours::at(std::uint32_t slot, std::uint8_t rank) const {
-    glm::vec3 colour = m_places[slot];
-    if (m_varies) {
-        const Entry& entry = m_entries[m_groups.empty() ? 0 : m_groups[slot]];
-        Variation v = entry.ranks[rank];
+void LicColours::pixels(std::size_t b, const std::uint8_t* rank, std::uint8_t* colours) const {
+    static const std::array<std::uint8_t, 256> inOrder = [] {
+        std::array<std::uint8_t, 256> numbers{};
+        for (std::size_t i = 0; i < 256; ++i) numbers[i] = static_cast<std::uint8_t>(i);
+        return numbers;
+    }();
+    const auto kernel = WHORL_PICK(licColourPixels);
+    const std::uint32_t begin = m_atlas.firstSlot(b), end = m_atlas.firstSlot(b + 1);
+    LicVariations own;
+    // Runs of one group.
+    for (std::uint32_t first = begin, last = begin; first < end; first = last) {
+        const std::uint8_t group = m_groups.empty() ? std::uint8_t{0} : m_groups[first];
+        last = m_groups.empty() ? end : first + 1;
+        while (last < end && m_groups[last] == group) ++last;
+        LicColourPixels p{static_cast<int>(last - first),
+                          &m_entries[group],
+                          encodedTable(),
+                          rank + (first - begin),
+                          {m_places[0].data() + first, m_places[1].data() + first, m_places[2].data() + first},
+                          colours + std::size_t{3} * (first - begin)};
         if (!m_differences.empty()) {
-            const glm::vec3& d = m_differences[slot];
-            v = variation(d.x, d.y, d.z, static_cast<float>(rank) / 255.0f);
+            std::copy_n(m_entries[group].mutant, 3, own.mutant);
+            for (std::uint32_t i = first; i < last; ++i) {
+                const glm::vec3& d = m_differences[i];
+                const Variation v = variation(d.x, d.y, d.z, static_cast<float>(rank[i - begin]) / 255.0f);
+                own.share[i - first] = v.share;
+                for (int k = 0; k < 3; ++k) own.turn[k][i - first] = v.turn[k];
+            }
+            p.variations = &own;
+            p.rank = inOrder.data();
         }
-        colour = glm::mix(colour, entry.mutant, v.mutant);
-        const float a = v.turn[0], b = v.turn[1], c = v.turn[2];
-        colour = {a * colour.x + b * colour.y + c * colour.z, c * colour.x + a * colour.y + b * colour.z,
-                  b * colour.x + c * colour.y + a * colour.z};
+        kernel(p);
     }
-    return {encoded(colour.x), encoded(colour.y), encoded(colour.z)};
 }
 
 std::vector<std::string> LicColours::mapNames(const Groom& groom) {

@@ -2,18 +2,16 @@
 // Colour of the drawn hair, from the colours of the groups.
 #pragma once
 
+#include "core/lic/lic_pixels.kernel.h"
 #include "core/lic/texel_atlas.h"
 #include "core/model/groom.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace whorl {
-
-using LicColour = std::array<std::uint8_t, 3>;  ///< sRGB
 
 /// Refers to the atlas, which must outlive it.
 class LicColours {
@@ -24,28 +22,24 @@ public:
     void set(const Groom& groom, std::span<const std::uint8_t> blocks);
     /// True when hairs of one place differ in colour.
     bool varies() const { return m_varies; }
-    /// `rank`: the same along a drawn hair, all equally frequent.
-    LicColour at(std::uint32_t slot, std::uint8_t rank) const;
+    /// Of the slots of block `b`: red, green and blue of each, sRGB. `rank`: one a slot of the block, the same along a
+    /// drawn hair, all equally frequent.
+    void pixels(std::size_t b, const std::uint8_t* rank, std::uint8_t* colours) const;
 
     /// Names of maps that colours depend on.
     static std::vector<std::string> mapNames(const Groom& groom);
 
 private:
-    // How hairs of one rank differ from the colour of the place.
     struct Variation {
-        float turn[3]{1.0f, 0.0f, 0.0f};  ///< of the hue: a row of a matrix of which the others are turned on
-        float mutant = 0.0f;
-    };
-    struct Entry {
-        glm::vec3 mutant{0.0f};
-        std::vector<Variation> ranks;  ///< 256
+        float turn[3]{1.0f, 0.0f, 0.0f};
+        float share = 0.0f;
     };
     static Variation variation(float hue, float value, float mutants, float rank);
 
     const TexelAtlas& m_atlas;
-    std::vector<Entry> m_entries;
+    std::vector<LicVariations> m_entries;  // one a group
     std::vector<std::uint8_t> m_groups;    // one a slot; empty: there is only one
-    std::vector<glm::vec3> m_places;       // one a slot: linear colour
+    std::vector<float> m_places[3];        // one a slot: linear red, green, blue
     std::vector<glm::vec3> m_differences;  // one a slot, hue, value and mutants; empty: as the groups have them
     bool m_varies = false;
 };

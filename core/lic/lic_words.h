@@ -23,8 +23,6 @@ public:
     void setSteps(const DirectionField& field, const LicPlan& plan, std::span<const std::uint8_t> blocks);
     /// `grainMap`: may be null.
     void setNoise(const LicPlan& plan, std::uint32_t seed, const Map* grainMap, std::span<const std::uint8_t> blocks);
-    /// False where no hair lies.
-    bool grows(std::uint32_t slot) const { return m_words[m_atlas.slots()[slot].texel] >> 8 != lic_word::end >> 8; }
     ConvolveArrays arrays(const LicPlan& plan) const;
     /// Texels that a step in one of the marked blocks (one a block) leads on at most, to the right or down.
     float longestStep(std::span<const std::uint8_t> blocks) const;

@@ -58,69 +58,91 @@ void LicPainter::State::setLengths(const Groom& now, const LicBlocks& blocks) {
     });
 }
 
-bool LicPainter::State::convolve(const LicBlocks& blocks, Progress& progress) {
-    const ConvolveArrays arrays = words.arrays(plan);
-    const auto kernel = WHORL_PICK(convolveBlock);
-    const auto across = static_cast<std::size_t>(atlas.blocksAcross());
+// The slots of a block: their light, and what tells hairs apart.
+void LicPainter::State::convolve(std::size_t b, int unseen, std::uint8_t* light) {
+    const std::uint32_t begin = atlas.firstSlot(b), end = atlas.firstSlot(b + 1);
     const auto even = static_cast<std::uint8_t>(plan.mean * 255.0f + 0.5f);
-    parallelFor(blocks.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
-        ConvolveBlock block{};
-        for (std::size_t b = first; b < last && !progress.cancelled(); ++b) {
-            const std::uint32_t begin = atlas.firstSlot(b), end = atlas.firstSlot(b + 1);
-            if (!blocks[b] || begin == end) continue;
-            bool any = false;
-            for (std::uint32_t i = begin; i < end && !any; ++i) any = cover.grows(i);
-            landings[b].clear();
-            if (!any) {
-                std::fill(light.begin() + begin, light.begin() + end, even);
-                std::fill(hair.begin() + begin, hair.begin() + end, std::uint8_t{128});
-                continue;
-            }
-            block.x = static_cast<int>(b % across) * TexelAtlas::block;
-            block.y = static_cast<int>(b / across) * TexelAtlas::block;
-            block.lengths = lengths.empty() ? nullptr : &lengths[b * texelsOfBlock];
-            kernel(arrays, block);
-            landings[b].assign(block.landings,
-                               block.landings + std::min(block.landingCount, ConvolveBlock::mostLandings));
-            if (block.landingCount > ConvolveBlock::mostLandings) landings[b].assign(1, TexelAtlas::none);
-            for (std::uint32_t i = begin; i < end; ++i) {
-                const std::size_t place = atlas.placeInBlock(i);
-                // Where no hair grows, or nothing says which way, light is that of the mean: no dark dots and fringes.
-                const bool grows = cover.grows(i) && words.grows(i);
-                light[i] = grows ? block.light[place] : even;
-                hair[i] = grows ? block.hair[place] : 128;
-            }
-        }
-    });
-    return !progress.cancelled();
-}
-
-// A copy of the layer with the texels of some blocks, and those filled from there, set to what `value` gives of a slot.
-template <class T, class Value>
-void LicPainter::State::write(std::shared_ptr<const std::vector<T>>& layer, std::size_t channels,
-                              const LicBlocks& blocks, bool fresh, Value&& value) const {
-    const auto size = static_cast<std::size_t>(atlas.size());
-    std::shared_ptr<std::vector<T>> next;
-    if (fresh || !layer) {
-        next = std::make_shared<std::vector<T>>(size * size * channels, T{});
-    } else {
-        next = std::make_shared<std::vector<T>>(*layer);
+    landings[b].clear();
+    reaches[b] = {};
+    bool any = false;
+    for (std::uint32_t i = begin; i < end && !any; ++i) any = cover.grows(i);
+    if (!any) {
+        std::fill(light, light + (end - begin), even);
+        std::fill(hair.begin() + begin, hair.begin() + end, std::uint8_t{128});
+        return;
     }
     const auto across = static_cast<std::size_t>(atlas.blocksAcross());
-    parallelFor(blocks.size(), blocksAtOnce, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) {
-            if (!blocks[b]) continue;
+    ConvolveBlock block{};
+    block.x = static_cast<int>(b % across) * TexelAtlas::block;
+    block.y = static_cast<int>(b / across) * TexelAtlas::block;
+    block.lengths = lengths.empty() ? nullptr : &lengths[b * texelsOfBlock];
+    WHORL_PICK(convolveBlock)(words.arrays(plan), block);
+    landings[b].assign(block.landings, block.landings + std::min(block.landingCount, ConvolveBlock::mostLandings));
+    if (block.landingCount > ConvolveBlock::mostLandings) landings[b].assign(1, TexelAtlas::none);
+    const auto blockOf = [&](int texel) {
+        return static_cast<std::int16_t>(std::clamp(texel, 0, atlas.side() - 1) / TexelAtlas::block);
+    };
+    if (block.left <= block.right)
+        reaches[b] = {blockOf(block.left - unseen), blockOf(block.right + unseen), blockOf(block.top - unseen),
+                      blockOf(block.bottom + unseen)};
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const std::size_t place = atlas.placeInBlock(i);
+        // Where no hair grows, or nothing says which way, light is that of the mean: no dark dots and fringes.
+        const bool grows = cover.grows(i) && block.grows[place];
+        light[i - begin] = grows ? block.light[place] : even;
+        hair[i] = grows ? block.hair[place] : 128;
+    }
+}
+
+namespace {
+
+// What a layer becomes: a copy of it, or a new one.
+template <class T>
+std::shared_ptr<std::vector<T>> nextOf(const LicTexture::Layer<T>& layer, std::size_t count, bool fresh) {
+    return fresh || !layer ? std::make_shared<std::vector<T>>(count, T{}) : std::make_shared<std::vector<T>>(*layer);
+}
+
+}  // namespace
+
+// All that is stale of the texture; false when cancelled, then `next` is as it was.
+bool LicPainter::State::paintBlocks(const LicStale& stale, bool fresh, LicTexture& next, Progress& progress) {
+    const auto size = static_cast<std::size_t>(atlas.size()), across = static_cast<std::size_t>(atlas.blocksAcross());
+    std::shared_ptr<std::vector<std::uint8_t>> nextLight, nextCover, nextColours;
+    if (anyOf(stale.light)) nextLight = nextOf(next.light, size * size, fresh);
+    if (anyOf(stale.cover)) nextCover = nextOf(next.cover, size * size, fresh);
+    if (anyOf(stale.colours)) nextColours = nextOf(next.colours, size * size * 3, fresh);
+    // A place may have been as far from those that the kernel has seen.
+    const int unseen = static_cast<int>(words.longestStep(LicBlocks(stale.light.size(), 1)) * ConvolveBlock::seen) + 2;
+    parallelFor(stale.light.size(), blocksAtOnce, [&](std::size_t firstBlock, std::size_t lastBlock) {
+        std::uint8_t light[texelsOfBlock], rank[texelsOfBlock], covers[texelsOfBlock], tints[3 * texelsOfBlock];
+        for (std::size_t b = firstBlock; b < lastBlock && !progress.cancelled(); ++b) {
+            const bool newLight = stale.light[b], newCover = stale.cover[b], newColours = stale.colours[b];
+            const std::uint32_t begin = atlas.firstSlot(b), end = atlas.firstSlot(b + 1);
+            if (begin == end || !(newLight || newCover || newColours)) continue;
+            if (newLight) convolve(b, unseen, light);
+            if (newCover || newColours) cover.pixels(b, hair.data() + begin, rank, newCover ? covers : nullptr);
+            if (newColours) colours.pixels(b, rank, tints);
+            const auto put = [&](std::uint32_t slot, std::size_t texel) {
+                const std::size_t i = slot - begin;
+                if (newLight) (*nextLight)[texel] = light[i];
+                if (newCover) (*nextCover)[texel] = covers[i];
+                if (newColours) std::copy_n(tints + 3 * i, 3, nextColours->data() + 3 * texel);
+            };
             const std::size_t left = b % across * TexelAtlas::block - TexelAtlas::pad;  // wraps around in the frame
             const std::size_t top = b / across * TexelAtlas::block - TexelAtlas::pad;
-            for (std::uint32_t i = atlas.firstSlot(b); i < atlas.firstSlot(b + 1); ++i) {
+            for (std::uint32_t i = begin; i < end; ++i) {
                 const std::size_t place = atlas.placeInBlock(i);
                 const std::size_t x = left + place % TexelAtlas::block, y = top + place / TexelAtlas::block;
-                if (x < size && y < size) value(i, next->data() + (y * size + x) * channels);
+                if (x < size && y < size) put(i, y * size + x);
             }
-            for (const TexelAtlas::Fill& f : atlas.fills(b)) value(f.slot, next->data() + f.texel * channels);
+            for (const TexelAtlas::Fill& f : atlas.fills(b)) put(f.slot, f.texel);
         }
     });
-    layer = std::move(next);
+    if (progress.cancelled()) return false;
+    if (nextLight) next.light = std::move(nextLight);
+    if (nextCover) next.cover = std::move(nextCover);
+    if (nextColours) next.colours = std::move(nextColours);
+    return true;
 }
 
 void LicPainter::State::setTangents(LicTexture& next, std::span<const std::uint32_t> triangles) const {
@@ -170,38 +192,27 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
     LicBlocks grown(stale.light.size());
     if (anyOf(stale.density)) s.cover.setDensity(groom, field, stale.density, grown);
     LicChanges::add(grown, stale.light);
-    if (!fresh && anyOf(grown)) {
-        s.atlas.spread(grown, s.cover.borderReach(groom.lic->border) + 1.0f, true);
-        LicChanges::add(grown, stale.border);
-        LicChanges::add(grown, stale.cover);
+    LicChanges::add(grown, stale.cover);
+    if (stale.border) {
+        s.cover.setBorder(groom.lic->border);
+    } else if (anyOf(grown)) {
+        s.cover.updateBorder(grown, stale.cover);
     }
-    if (anyOf(stale.border)) s.cover.setBorder(groom.lic->border, stale.border);
     if (anyOf(stale.opacity))
         s.cover.setOpacity(groom.lic->opacity, mapOf(groom, groom.lic->opacity.map), stale.opacity);
     if (stale.ranks) s.cover.setRanks(plan.hairDeviation);
     if (progress.cancelled()) return cancelledError();
-    if (anyOf(stale.light) && !s.convolve(stale.light, progress)) return cancelledError();
-
-    next.size = s.atlas.size();
-    next.cornerUvs = s.atlas.cornerUvs();
-    next.mean = plan.mean;
-    next.deviation = plan.deviation;
-    if (anyOf(stale.light))
-        s.write(next.light, 1, stale.light, fresh, [&](std::uint32_t i, std::uint8_t* to) { *to = s.light[i]; });
-    if (anyOf(stale.cover))
-        s.write(next.cover, 1, stale.cover, fresh,
-                [&](std::uint32_t i, std::uint8_t* to) { *to = s.cover.cover(i, s.hair[i]); });
     if (anyOf(stale.colours)) s.colours.set(groom, stale.colours);
     if (s.colours.varies()) {
         LicChanges::add(stale.light, stale.colours);
         if (stale.ranks) LicChanges::addAll(stale.colours);
     }
-    if (anyOf(stale.colours)) {
-        s.write(next.colours, 3, stale.colours, fresh, [&](std::uint32_t i, std::uint8_t* to) {
-            const LicColour colour = s.colours.at(i, s.cover.rank(s.hair[i]));
-            std::copy_n(colour.data(), 3, to);
-        });
-    }
+
+    next.size = s.atlas.size();
+    next.cornerUvs = s.atlas.cornerUvs();
+    next.mean = plan.mean;
+    next.deviation = plan.deviation;
+    if (!s.paintBlocks(stale, fresh, next, progress)) return cancelledError();
     if (fresh) next.tangents = nullptr;
     if (fresh || !turned.empty()) s.setTangents(next, turned);
 

@@ -33,16 +33,47 @@ void LicPainter::State::coloursAgainst(const Groom& now, LicStale& stale) const 
     for (std::size_t i = 0; i < names.size(); ++i) changes.addMap(groom, before[i], now, names[i], stale.colours);
 }
 
+// A streamline is another one only if it came by a texel that tells it something else now.
+void LicPainter::State::lightAgainst(const LicPlan& next, LicStale& stale) const {
+    LicChanges::add(stale.steps, stale.light);
+    LicChanges::add(stale.noise, stale.light);
+    const LicBlocks told = stale.light;
+    // How many of the blocks up to there are: by row and column.
+    const auto across = static_cast<std::size_t>(atlas.blocksAcross()), width = across + 1;
+    std::vector<std::uint32_t> sums(width * width, 0);
+    for (std::size_t b = 0; b < told.size(); ++b) {
+        const std::size_t at = (b / across + 1) * width + b % across + 1;
+        sums[at] = told[b] + sums[at - 1] + sums[at - width] - sums[at - width - 1];
+    }
+    const auto upTo = [&](int x, int y) {
+        return sums[static_cast<std::size_t>(y + 1) * width + static_cast<std::size_t>(x + 1)];
+    };
+    // Beyond seams: no streamline is longer than the steps around allow; a texel for what rounding adds.
+    LicBlocks near = told, around = told;
+    const auto steps = static_cast<float>(next.steps);
+    atlas.spread(around, next.longestStep * steps);
+    atlas.spread(near, std::min(words.longestStep(around), next.longestStep) * steps + 1.0f);
+    for (std::size_t b = 0; b < told.size(); ++b) {
+        const LicReach& r = reaches[b];
+        if (r.left <= r.right && upTo(r.right, r.bottom) - upTo(r.left - 1, r.bottom) - upTo(r.right, r.top - 1) +
+                                         upTo(r.left - 1, r.top - 1) !=
+                                     0)
+            stale.light[b] = 1;
+        for (const std::uint32_t there : landings[b])
+            stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
+    }
+}
+
 LicStale LicPainter::State::staleAgainst(const Groom& now, const DirectionField& nowField, const LicPlan& next,
                                          bool fresh) const {
     LicStale stale(atlas.blockCount());
     const LicParams& is = *now.lic;
     const LicParams& was = *groom.lic;
     if (fresh) {
-        for (LicBlocks* all : {&stale.steps, &stale.noise, &stale.lengths, &stale.light, &stale.density, &stale.border,
-                               &stale.opacity, &stale.cover, &stale.colours})
+        for (LicBlocks* all : {&stale.steps, &stale.noise, &stale.lengths, &stale.light, &stale.density, &stale.opacity,
+                               &stale.cover, &stale.colours})
             LicChanges::addAll(*all);
-        stale.partings = stale.ranks = true;
+        stale.partings = stale.ranks = stale.border = true;
         return stale;
     }
     stale.partings = !now.partings.sameAs(groom.partings) && *now.partings != *groom.partings;
@@ -58,28 +89,14 @@ LicStale LicPainter::State::staleAgainst(const Groom& now, const DirectionField&
     densityAgainst(now, stale);
     changes.addTriangles(changes.grown(field, nowField), stale.density);
 
-    if (anyOf(stale.steps) || anyOf(stale.noise)) {
-        LicChanges::add(stale.steps, stale.light);
-        LicChanges::add(stale.noise, stale.light);
-        // No streamline is longer than the steps around allow; a texel for what rounding adds.
-        LicBlocks around = stale.light;
-        const auto steps = static_cast<float>(next.steps);
-        atlas.spread(around, next.longestStep * steps, false);
-        atlas.spread(stale.light, std::min(words.longestStep(around), next.longestStep) * steps + 1.0f, false);
-        // Streamlines that come there over a seam: so far they have gone as they went last time.
-        const LicBlocks near = stale.light;
-        for (std::size_t b = 0; b < landings.size(); ++b)
-            for (const std::uint32_t there : landings[b])
-                stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
-    }
+    if (anyOf(stale.steps) || anyOf(stale.noise)) lightAgainst(next, stale);
     LicChanges::add(stale.lengths, stale.light);
     if (next.weights != plan.weights || next.steps != plan.steps) LicChanges::addAll(stale.light);
-    if (is.border != was.border) LicChanges::addAll(stale.border);
+    stale.border = is.border != was.border;
     if (is.opacity.value != was.opacity.value) LicChanges::addAll(stale.opacity);
     changes.addMap(groom, was.opacity.map, now, is.opacity.map, stale.opacity);
-    for (const LicBlocks* part : {&stale.light, &stale.density, &stale.border, &stale.opacity})
-        LicChanges::add(*part, stale.cover);
-    if (stale.ranks) LicChanges::addAll(stale.cover);
+    for (const LicBlocks* part : {&stale.light, &stale.density, &stale.opacity}) LicChanges::add(*part, stale.cover);
+    if (stale.ranks || stale.border) LicChanges::addAll(stale.cover);
     coloursAgainst(now, stale);
     return stale;
 }

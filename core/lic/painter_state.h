@@ -21,24 +21,28 @@ struct LicStale {
           lengths(blocks),
           light(blocks),
           density(blocks),
-          border(blocks),
           opacity(blocks),
           cover(blocks),
           colours(blocks) {}
-    LicBlocks steps, noise, lengths, light, density, border, opacity, cover, colours;
-    bool partings = false, ranks = false;
+    LicBlocks steps, noise, lengths, light, density, opacity, cover, colours;
+    bool partings = false, ranks = false, border = false;
 };
 
 inline bool anyOf(const LicBlocks& blocks) {
     return std::ranges::find(blocks, 1) != blocks.end();
 }
 
+/// Blocks from `left` and `top` up to `right` and `bottom`; none where `right` is below `left`.
+struct LicReach {
+    std::int16_t left = 0, right = -1, top = 0, bottom = -1;
+};
+
 struct LicPainter::State {
     explicit State(TexelAtlas texels)
         : atlas(std::move(texels)), words(atlas), cover(atlas), colours(atlas), changes(atlas) {
-        light.assign(atlas.slots().size(), 0);
         hair.assign(atlas.slots().size(), 0);
         landings.resize(atlas.blockCount());
+        reaches.resize(atlas.blockCount());
     }
 
     /// What `groom`, `now` and `next` make stale of what was painted last; all of it when `fresh`.
@@ -46,10 +50,9 @@ struct LicPainter::State {
     void densityAgainst(const Groom& groom, LicStale& stale) const;
     void coloursAgainst(const Groom& groom, LicStale& stale) const;
     void setLengths(const Groom& groom, const LicBlocks& blocks);
-    bool convolve(const LicBlocks& blocks, Progress& progress);
-    template <class T, class Value>
-    void write(std::shared_ptr<const std::vector<T>>& layer, std::size_t channels, const LicBlocks& blocks, bool fresh,
-               Value&& value) const;
+    void lightAgainst(const LicPlan& next, LicStale& stale) const;
+    bool paintBlocks(const LicStale& stale, bool fresh, LicTexture& next, Progress& progress);
+    void convolve(std::size_t b, int unseen, std::uint8_t* light);
     void setTangents(LicTexture& texture, std::span<const std::uint32_t> triangles) const;
 
     const TexelAtlas atlas;
@@ -59,9 +62,11 @@ struct LicPainter::State {
     LicColours colours;
     const LicChanges changes;
     std::vector<std::uint16_t> lengths;  // by block, empty without a map
-    std::vector<std::uint8_t> light;     // one a slot, as `hair`
-    std::vector<std::uint8_t> hair;
-    std::vector<std::vector<std::uint32_t>> landings;  // by block: those that its streamlines jump to; `none`: many
+    std::vector<std::uint8_t> hair;      // one a slot: the convolved noise that tells hairs apart
+    // By block: where its streamlines may have been before they went over a seam, and the blocks that they went on in,
+    // `none` for many.
+    std::vector<LicReach> reaches;
+    std::vector<std::vector<std::uint32_t>> landings;
     // What was painted last.
     bool painted = false;
     Groom groom;

@@ -48,7 +48,6 @@ Result<TexelAtlas> TexelAtlas::make(std::shared_ptr<const Surface> surface, int 
     raster.reset();
     if (progress.cancelled()) return cancelledError();
     atlas.fillAround();
-    atlas.linkBlocks();
     return atlas;
 }
 
@@ -196,22 +195,7 @@ void TexelAtlas::fillAround() {
     for (std::size_t b = 0; b < blockCount(); ++b) m_firstFill[b + 1] += m_firstFill[b];
 }
 
-void TexelAtlas::linkBlocks() {
-    for (const Jump& jump : m_jumps) {
-        const auto reach = static_cast<float>(m_side - 1);
-        const auto x = static_cast<std::uint32_t>(std::clamp(jump.to[0], 0.0f, reach));
-        const auto y = static_cast<std::uint32_t>(std::clamp(jump.to[1], 0.0f, reach));
-        const std::uint32_t here = blockOf(m_slots[jump.slot].texel);
-        const std::uint32_t there = blockOf(y * static_cast<std::uint32_t>(m_side) + x);
-        if (here == there) continue;
-        m_links.push_back({here, there});
-        m_links.push_back({there, here});
-    }
-    std::sort(m_links.begin(), m_links.end());
-    m_links.erase(std::unique(m_links.begin(), m_links.end()), m_links.end());
-}
-
-void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels, bool overSeams) const {
+void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels) const {
     const int across = blocksAcross();
     const int rings = static_cast<int>(std::ceil(texels / static_cast<float>(block)));
     std::vector<std::uint32_t> edge, next;
@@ -222,20 +206,7 @@ void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels, bool ov
         blocks[b] = 1;
         next.push_back(b);
     };
-    const auto cross = [&] {
-        next.clear();
-        for (const std::uint32_t b : edge) {
-            const auto from = std::lower_bound(m_links.begin(), m_links.end(), std::array{b, 0u});
-            for (auto link = from; link != m_links.end() && (*link)[0] == b; ++link) reach((*link)[1]);
-        }
-        edge.insert(edge.end(), next.begin(), next.end());
-    };
-    for (int pass = 0; pass <= rings && !edge.empty(); ++pass) {
-        if (overSeams) {
-            cross();
-            cross();
-        }
-        if (pass == rings) break;
+    for (int pass = 0; pass < rings && !edge.empty(); ++pass) {
         next.clear();
         for (const std::uint32_t b : edge) {
             const int x = static_cast<int>(b) % across, y = static_cast<int>(b) / across;

@@ -95,9 +95,8 @@ public:
     float usualTexel() const { return m_usualTexel; }
     float fineTexel() const { return m_fineTexel; }
 
-    /// Adds to the marked blocks (one a block) those that are `texels` away at most, in the plane of the texture or
-    /// also over seams (at most two of them in the width of a block).
-    void spread(std::vector<std::uint8_t>& blocks, float texels, bool overSeams) const;
+    /// Adds to the marked blocks (one a block) those that are `texels` away at most, in the plane of the texture.
+    void spread(std::vector<std::uint8_t>& blocks, float texels) const;
 
 private:
     TexelAtlas() = default;
@@ -106,7 +105,6 @@ private:
     void addMargins(Raster& raster) const;
     void place(Raster& raster);
     void fillAround();
-    void linkBlocks();
 
     std::shared_ptr<const Surface> m_surface;
     std::shared_ptr<const std::vector<glm::vec2>> m_cornerUvs;
@@ -122,7 +120,6 @@ private:
     std::vector<Jump> m_jumps;
     std::vector<Fill> m_fills;
     std::vector<std::uint32_t> m_firstFill;
-    std::vector<std::array<std::uint32_t, 2>> m_links;  // blocks that a seam joins
 };
 
 }  // namespace whorl
