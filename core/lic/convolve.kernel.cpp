@@ -80,20 +80,26 @@ bool partedBy(const Special& special, std::int32_t fromX, std::int32_t fromY, st
     return dx >= 0 && dy >= 0 && dx < 5 && dy < 5 && ((special.parted >> (dy * 5 + dx)) & 1u) != 0;
 }
 
-void land(const ConvolveArrays& a, std::int32_t x, std::int32_t y, ConvolveBlock& block) {
+void land(const ConvolveArrays& a, std::int32_t x, std::int32_t y, int left, ConvolveBlock& block) {
     const auto number =
         static_cast<std::uint32_t>((y >> fraction) / lanes * (a.side / lanes) + (x >> fraction) / lanes);
     constexpr int most = ConvolveBlock::mostLandings;
     // Neighbours land together: mostly it is the last one again.
-    for (int i = (block.landingCount < most ? block.landingCount : most) - 1; i >= 0; --i)
-        if (block.landings[i] == number) return;
-    if (block.landingCount < most) block.landings[block.landingCount] = number;
+    for (int i = (block.landingCount < most ? block.landingCount : most) - 1; i >= 0; --i) {
+        if (block.landings[i] != number) continue;
+        if (block.onwards[i] < left) block.onwards[i] = left;
+        return;
+    }
+    if (block.landingCount < most) {
+        block.landings[block.landingCount] = number;
+        block.onwards[block.landingCount] = left;
+    }
     if (block.landingCount <= most) ++block.landingCount;
 }
 
 // The step from a special texel; false where the streamline ends.
 bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::int32_t way, std::int32_t& stays,
-            ConvolveBlock& block) {
+            int left, ConvolveBlock& block) {
     const Special* special = specialAt(a, texelAt(a, atX, atY));
     if (!special) return false;
     const std::int32_t limit = a.side * one;
@@ -104,7 +110,7 @@ bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::
                     dy = static_cast<float>((y & (one - 1)) - one / 2);
         x = within(special->toX + whole(special->turn[0] * dx + special->turn[1] * dy), limit);
         y = within(special->toY + whole(special->turn[2] * dx + special->turn[3] * dy), limit);
-        land(a, x, y, block);
+        land(a, x, y, left, block);
         stays = 0;
         const Special* there = specialAt(a, texelAt(a, x, y));
         cut = there && there->jumps == 0 ? there : nullptr;
@@ -144,19 +150,19 @@ __attribute__((noinline)) void finishEnded(Lines& lines, std::int32_t total, Int
 
 // From `fromX`, `fromY` on: the step that the word says is none.
 __attribute__((noinline)) void stepSpecial(const ConvolveArrays& a, Lines& lines, const Ints& fromX, const Ints& fromY,
-                                           const Ints& ways, std::int32_t total, Ints& totals, ConvolveBlock& block) {
+                                           const Ints& ways, int step, Ints& totals, ConvolveBlock& block) {
     for (std::uint32_t left = lines.special; left != 0; left &= left - 1) {
         const int lane = __builtin_ctz(left);
         std::int32_t x = fromX[lane], y = fromY[lane];
         std::int32_t stays = lines.stays[lane];
-        const bool goesOn = stepOn(a, x, y, ways[lane], stays, block);
+        const bool goesOn = stepOn(a, x, y, ways[lane], stays, a.steps - step + 1, block);
         lines.stays[lane] = stays;
         if (goesOn) {
             lines.x[lane] = x;
             lines.y[lane] = y;
         } else {
             finish(lines, lane);
-            totals[lane] = total;
+            totals[lane] = a.totals[step - 1];
         }
     }
 }
@@ -239,7 +245,7 @@ void convolveRows(const ConvolveArrays& a, ConvolveBlock& block, int first) {
                 Lines some{nextX, nextY, words[i], special[i], stays[i]};
                 Ints ended = totals[i];
                 const Ints fromX = x[i], fromY = y[i], way = ways[i];
-                stepSpecial(a, some, fromX, fromY, way, before, ended, block);
+                stepSpecial(a, some, fromX, fromY, way, k, ended, block);
                 totals[i] = ended;
                 stays[i] = some.stays;
                 x[i] = some.x;

@@ -29,6 +29,7 @@ struct ConvolveBlock {
     std::uint8_t grows[256];  ///< out: 0 where streamlines end at once
     static constexpr int mostLandings = 48;
     std::uint32_t landings[mostLandings];  ///< out: blocks (row by row) in which streamlines go on beyond seams
+    int onwards[mostLandings];             ///< out: steps that the longest of them has left there
     int landingCount;                      ///< one above `mostLandings`: there are more
     /// Out: texels between which every fourth place of the streamlines lies, as far as they have not gone over a seam;
     /// none where `right` is below `left`.

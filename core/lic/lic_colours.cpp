@@ -134,7 +134,7 @@ void LicColours::set(const Groom& groom, std::span<const std::uint8_t> blocks) {
     });
 }
 
-void LicColours::pixels(std::size_t b, const std::uint8_t* rank, std::uint8_t* colours) const {
+void LicColours::pixels(std::size_t b, const std::uint8_t* rank, std::uint32_t* colours) const {
     static const std::array<std::uint8_t, 256> inOrder = [] {
         std::array<std::uint8_t, 256> numbers{};
         for (std::size_t i = 0; i < 256; ++i) numbers[i] = static_cast<std::uint8_t>(i);
@@ -153,7 +153,7 @@ void LicColours::pixels(std::size_t b, const std::uint8_t* rank, std::uint8_t* c
                           encodedTable(),
                           rank + (first - begin),
                           {m_places[0].data() + first, m_places[1].data() + first, m_places[2].data() + first},
-                          colours + std::size_t{3} * (first - begin)};
+                          colours + (first - begin)};
         if (!m_differences.empty()) {
             std::copy_n(m_entries[group].mutant, 3, own.mutant);
             for (std::uint32_t i = first; i < last; ++i) {

@@ -22,9 +22,9 @@ public:
     void set(const Groom& groom, std::span<const std::uint8_t> blocks);
     /// True when hairs of one place differ in colour.
     bool varies() const { return m_varies; }
-    /// Of the slots of block `b`: red, green and blue of each, sRGB. `rank`: one a slot of the block, the same along a
-    /// drawn hair, all equally frequent.
-    void pixels(std::size_t b, const std::uint8_t* rank, std::uint8_t* colours) const;
+    /// Of the slots of block `b`: red, green * 256 and blue * 65536 of each, sRGB. `rank`: one a slot of the block, the
+    /// same along a drawn hair, all equally frequent.
+    void pixels(std::size_t b, const std::uint8_t* rank, std::uint32_t* colours) const;
 
     /// Names of maps that colours depend on.
     static std::vector<std::string> mapNames(const Groom& groom);

@@ -39,9 +39,9 @@ void turned(const float* __restrict a, const float* __restrict b, const float* _
     }
 }
 
-void gatherBytes(const std::uint32_t* __restrict table, const std::int32_t* __restrict at,
-                 std::uint32_t* __restrict out) {
-    for (int i = 0; i < atOnce; ++i) out[i] = table[at[i]];
+void encoded(const std::uint32_t* __restrict table, const std::int32_t* __restrict red,
+             const std::int32_t* __restrict green, const std::int32_t* __restrict blue, std::uint32_t* __restrict out) {
+    for (int i = 0; i < atOnce; ++i) out[i] = table[red[i]] | table[green[i]] << 8 | table[blue[i]] << 16;
 }
 
 }  // namespace
@@ -57,7 +57,6 @@ void licColourPixels(const LicColourPixels& p) {
         const int some = p.count - first < atOnce ? p.count - first : atOnce;
         std::int32_t rank[atOnce], numbers[3][atOnce];
         float place[3][atOnce], share[atOnce], turn[3][atOnce], colour[3][atOnce];
-        std::uint32_t bytes[3][atOnce];
         for (int i = 0; i < atOnce; ++i) rank[i] = i < some ? p.rank[first + i] : 0;
         gatherFloats(v.share, rank, share);
         for (int k = 0; k < 3; ++k) {
@@ -70,10 +69,9 @@ void licColourPixels(const LicColourPixels& p) {
         turned(turn[0], turn[1], turn[2], colour[0], colour[1], colour[2], numbers[0]);
         turned(turn[2], turn[0], turn[1], colour[0], colour[1], colour[2], numbers[1]);
         turned(turn[1], turn[2], turn[0], colour[0], colour[1], colour[2], numbers[2]);
-        for (int k = 0; k < 3; ++k) gatherBytes(p.encoded, numbers[k], bytes[k]);
-        std::uint8_t* const out = p.colours + 3 * first;
-        for (int i = 0; i < some; ++i)
-            for (int k = 0; k < 3; ++k) out[3 * i + k] = static_cast<std::uint8_t>(bytes[k][i]);
+        std::uint32_t colours[atOnce];
+        encoded(p.encoded, numbers[0], numbers[1], numbers[2], colours);
+        for (int i = 0; i < some; ++i) p.colours[first + i] = colours[i];
     }
 }
 

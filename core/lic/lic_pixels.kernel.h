@@ -34,8 +34,8 @@ struct LicColourPixels {
     const LicVariations* variations;
     const std::uint32_t* encoded;  ///< 4096: a byte of sRGB for linear numbers from 0 to 1
     const std::uint8_t* rank;
-    const float* place[3];  ///< linear red, green, blue
-    std::uint8_t* colours;  ///< out, 3 * count
+    const float* place[3];   ///< linear red, green, blue
+    std::uint32_t* colours;  ///< out: red, green * 256, blue * 65536
 };
 
 #define WHORL_LIC_PIXELS_KERNELS(level)             \

@@ -77,20 +77,24 @@ void LicPainter::State::convolve(std::size_t b, int unseen, std::uint8_t* light)
     block.y = static_cast<int>(b / across) * TexelAtlas::block;
     block.lengths = lengths.empty() ? nullptr : &lengths[b * texelsOfBlock];
     WHORL_PICK(convolveBlock)(words.arrays(plan), block);
-    landings[b].assign(block.landings, block.landings + std::min(block.landingCount, ConvolveBlock::mostLandings));
-    if (block.landingCount > ConvolveBlock::mostLandings) landings[b].assign(1, TexelAtlas::none);
+    if (block.landingCount > ConvolveBlock::mostLandings) {
+        landings[b].push_back({TexelAtlas::none, 0});
+    } else {
+        for (int i = 0; i < block.landingCount; ++i) landings[b].push_back({block.landings[i], block.onwards[i]});
+    }
     const auto blockOf = [&](int texel) {
         return static_cast<std::int16_t>(std::clamp(texel, 0, atlas.side() - 1) / TexelAtlas::block);
     };
     if (block.left <= block.right)
         reaches[b] = {blockOf(block.left - unseen), blockOf(block.right + unseen), blockOf(block.top - unseen),
                       blockOf(block.bottom + unseen)};
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const std::size_t place = atlas.placeInBlock(i);
+    std::uint8_t* const noise = hair.data() + begin;
+    for (std::uint32_t i = 0; i < end - begin; ++i) {
+        const std::size_t place = atlas.placeInBlock(begin + i);
         // Where no hair grows, or nothing says which way, light is that of the mean: no dark dots and fringes.
-        const bool grows = cover.grows(i) && block.grows[place];
-        light[i - begin] = grows ? block.light[place] : even;
-        hair[i] = grows ? block.hair[place] : 128;
+        const bool grows = cover.grows(begin + i) && block.grows[place];
+        light[i] = grows ? block.light[place] : even;
+        noise[i] = grows ? block.hair[place] : std::uint8_t{128};
     }
 }
 
@@ -100,6 +104,24 @@ namespace {
 template <class T>
 std::shared_ptr<std::vector<T>> nextOf(const LicTexture::Layer<T>& layer, std::size_t count, bool fresh) {
     return fresh || !layer ? std::make_shared<std::vector<T>>(count, T{}) : std::make_shared<std::vector<T>>(*layer);
+}
+
+struct Put {
+    std::uint32_t texel, from;
+};
+
+void put(const std::vector<Put>& places, const std::uint8_t* from, std::uint8_t* to) {
+    for (const Put& p : places) to[p.texel] = from[p.from];
+}
+
+void put(const std::vector<Put>& places, const std::uint32_t* from, std::uint8_t* to) {
+    for (const Put& p : places) {
+        std::uint8_t* const texel = to + std::size_t{p.texel} * 3;
+        const std::uint32_t colour = from[p.from];
+        texel[0] = static_cast<std::uint8_t>(colour);
+        texel[1] = static_cast<std::uint8_t>(colour >> 8);
+        texel[2] = static_cast<std::uint8_t>(colour >> 16);
+    }
 }
 
 }  // namespace
@@ -114,7 +136,9 @@ bool LicPainter::State::paintBlocks(const LicStale& stale, bool fresh, LicTextur
     // A place may have been as far from those that the kernel has seen.
     const int unseen = static_cast<int>(words.longestStep(LicBlocks(stale.light.size(), 1)) * ConvolveBlock::seen) + 2;
     parallelFor(stale.light.size(), blocksAtOnce, [&](std::size_t firstBlock, std::size_t lastBlock) {
-        std::uint8_t light[texelsOfBlock], rank[texelsOfBlock], covers[texelsOfBlock], tints[3 * texelsOfBlock];
+        std::uint8_t light[texelsOfBlock], rank[texelsOfBlock], covers[texelsOfBlock];
+        std::uint32_t tints[texelsOfBlock];
+        std::vector<Put> places;
         for (std::size_t b = firstBlock; b < lastBlock && !progress.cancelled(); ++b) {
             const bool newLight = stale.light[b], newCover = stale.cover[b], newColours = stale.colours[b];
             const std::uint32_t begin = atlas.firstSlot(b), end = atlas.firstSlot(b + 1);
@@ -122,20 +146,19 @@ bool LicPainter::State::paintBlocks(const LicStale& stale, bool fresh, LicTextur
             if (newLight) convolve(b, unseen, light);
             if (newCover || newColours) cover.pixels(b, hair.data() + begin, rank, newCover ? covers : nullptr);
             if (newColours) colours.pixels(b, rank, tints);
-            const auto put = [&](std::uint32_t slot, std::size_t texel) {
-                const std::size_t i = slot - begin;
-                if (newLight) (*nextLight)[texel] = light[i];
-                if (newCover) (*nextCover)[texel] = covers[i];
-                if (newColours) std::copy_n(tints + 3 * i, 3, nextColours->data() + 3 * texel);
-            };
+            // Where each goes, and which it is of the block.
             const std::size_t left = b % across * TexelAtlas::block - TexelAtlas::pad;  // wraps around in the frame
             const std::size_t top = b / across * TexelAtlas::block - TexelAtlas::pad;
-            for (std::uint32_t i = begin; i < end; ++i) {
-                const std::size_t place = atlas.placeInBlock(i);
+            places.clear();
+            for (std::uint32_t i = 0; i < end - begin; ++i) {
+                const std::size_t place = atlas.placeInBlock(begin + i);
                 const std::size_t x = left + place % TexelAtlas::block, y = top + place / TexelAtlas::block;
-                if (x < size && y < size) put(i, y * size + x);
+                if (x < size && y < size) places.push_back({static_cast<std::uint32_t>(y * size + x), i});
             }
-            for (const TexelAtlas::Fill& f : atlas.fills(b)) put(f.slot, f.texel);
+            for (const TexelAtlas::Fill& f : atlas.fills(b)) places.push_back({f.texel, f.slot - begin});
+            if (newLight) put(places, light, nextLight->data());
+            if (newCover) put(places, covers, nextCover->data());
+            if (newColours) put(places, tints, nextColours->data());
         }
     });
     if (progress.cancelled()) return false;

@@ -2,6 +2,8 @@
 #include "core/lic/painter_state.h"
 #include "core/sampling/density.h"
 
+#include <cmath>
+
 namespace whorl {
 
 void LicPainter::State::densityAgainst(const Groom& now, LicStale& stale) const {
@@ -49,18 +51,22 @@ void LicPainter::State::lightAgainst(const LicPlan& next, LicStale& stale) const
         return sums[static_cast<std::size_t>(y + 1) * width + static_cast<std::size_t>(x + 1)];
     };
     // Beyond seams: no streamline is longer than the steps around allow; a texel for what rounding adds.
-    LicBlocks near = told, around = told;
-    const auto steps = static_cast<float>(next.steps);
-    atlas.spread(around, next.longestStep * steps);
-    atlas.spread(near, std::min(words.longestStep(around), next.longestStep) * steps + 1.0f);
+    const std::vector<std::uint8_t> rings = atlas.ringsAround(told);
+    const auto ringsOf = [](float texels) { return static_cast<int>(std::ceil(texels / TexelAtlas::block)); };
+    LicBlocks around(told.size());
+    const int most = ringsOf(next.longestStep * static_cast<float>(next.steps));
+    for (std::size_t b = 0; b < told.size(); ++b) around[b] = rings[b] <= most ? 1 : 0;
+    const float longest = std::min(words.longestStep(around), next.longestStep);
     for (std::size_t b = 0; b < told.size(); ++b) {
         const LicReach& r = reaches[b];
         if (r.left <= r.right && upTo(r.right, r.bottom) - upTo(r.left - 1, r.bottom) - upTo(r.right, r.top - 1) +
                                          upTo(r.left - 1, r.top - 1) !=
                                      0)
             stale.light[b] = 1;
-        for (const std::uint32_t there : landings[b])
-            stale.light[b] = stale.light[b] | (there == TexelAtlas::none ? std::uint8_t{1} : near[there]);
+        for (const LicLanding& there : landings[b])
+            if (there.block == TexelAtlas::none ||
+                rings[there.block] <= ringsOf(longest * static_cast<float>(there.steps) + 1.0f))
+                stale.light[b] = 1;
     }
 }
 

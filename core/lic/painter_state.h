@@ -37,6 +37,12 @@ struct LicReach {
     std::int16_t left = 0, right = -1, top = 0, bottom = -1;
 };
 
+/// A block in which streamlines go on beyond a seam, `none` for too many to tell, and for how many steps at most.
+struct LicLanding {
+    std::uint32_t block;
+    int steps;
+};
+
 struct LicPainter::State {
     explicit State(TexelAtlas texels)
         : atlas(std::move(texels)), words(atlas), cover(atlas), colours(atlas), changes(atlas) {
@@ -63,10 +69,9 @@ struct LicPainter::State {
     const LicChanges changes;
     std::vector<std::uint16_t> lengths;  // by block, empty without a map
     std::vector<std::uint8_t> hair;      // one a slot: the convolved noise that tells hairs apart
-    // By block: where its streamlines may have been before they went over a seam, and the blocks that they went on in,
-    // `none` for many.
+    // By block: where its streamlines may have been before they went over a seam, and where they went on.
     std::vector<LicReach> reaches;
-    std::vector<std::vector<std::uint32_t>> landings;
+    std::vector<std::vector<LicLanding>> landings;
     // What was painted last.
     bool painted = false;
     Groom groom;

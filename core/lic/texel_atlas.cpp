@@ -195,29 +195,26 @@ void TexelAtlas::fillAround() {
     for (std::size_t b = 0; b < blockCount(); ++b) m_firstFill[b + 1] += m_firstFill[b];
 }
 
-void TexelAtlas::spread(std::vector<std::uint8_t>& blocks, float texels) const {
-    const int across = blocksAcross();
-    const int rings = static_cast<int>(std::ceil(texels / static_cast<float>(block)));
-    std::vector<std::uint32_t> edge, next;
-    for (std::uint32_t b = 0; b < blocks.size(); ++b)
-        if (blocks[b]) edge.push_back(b);
-    const auto reach = [&](std::uint32_t b) {
-        if (blocks[b]) return;
-        blocks[b] = 1;
-        next.push_back(b);
+std::vector<std::uint8_t> TexelAtlas::ringsAround(std::span<const std::uint8_t> blocks) const {
+    const auto across = static_cast<std::size_t>(blocksAcross()), width = across + 2;
+    // With a frame that is far from everything; once from the top left, once from the bottom right.
+    std::vector<std::uint8_t> rings(width * width, 255);
+    const auto next = [](std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
+        return std::min(std::min(std::min(a, b), std::min(c, d)), std::uint8_t{254}) + 1;
     };
-    for (int pass = 0; pass < rings && !edge.empty(); ++pass) {
-        next.clear();
-        for (const std::uint32_t b : edge) {
-            const int x = static_cast<int>(b) % across, y = static_cast<int>(b) / across;
-            for (int n = 0; n < 9; ++n) {
-                const int nx = x + n % 3 - 1, ny = y + n / 3 - 1;
-                if (nx >= 0 && ny >= 0 && nx < across && ny < across)
-                    reach(static_cast<std::uint32_t>(ny * across + nx));
-            }
-        }
-        std::swap(edge, next);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const std::size_t i = (b / across + 1) * width + b % across + 1, up = i - width;
+        rings[i] =
+            blocks[b] ? 0 : static_cast<std::uint8_t>(next(rings[up - 1], rings[up], rings[up + 1], rings[i - 1]));
     }
+    std::vector<std::uint8_t> found(blocks.size());
+    for (std::size_t b = blocks.size(); b-- > 0;) {
+        const std::size_t i = (b / across + 1) * width + b % across + 1, down = i + width;
+        const int other = next(rings[down - 1], rings[down], rings[down + 1], rings[i + 1]);
+        rings[i] = static_cast<std::uint8_t>(std::min<int>(rings[i], other));
+        found[b] = rings[i];
+    }
+    return found;
 }
 
 }  // namespace whorl

@@ -95,8 +95,8 @@ public:
     float usualTexel() const { return m_usualTexel; }
     float fineTexel() const { return m_fineTexel; }
 
-    /// Adds to the marked blocks (one a block) those that are `texels` away at most, in the plane of the texture.
-    void spread(std::vector<std::uint8_t>& blocks, float texels) const;
+    /// One a block: how many blocks away the nearest marked one is, in the plane of the texture; at most 255.
+    std::vector<std::uint8_t> ringsAround(std::span<const std::uint8_t> blocks) const;
 
 private:
     TexelAtlas() = default;
