@@ -185,9 +185,9 @@ void Renderer::setStrands(std::shared_ptr<const Strands> strands) {
     state.uploadMilliseconds = milliseconds(start);
 }
 
-void Renderer::setLicTexture(std::shared_ptr<const LicTexture> texture) {
+void Renderer::setLicImage(std::shared_ptr<const LicImage> image) {
     const auto start = std::chrono::steady_clock::now();
-    m_state->lic.setTexture(std::move(texture), m_state->uploads);
+    m_state->lic.setImage(std::move(image), m_state->uploads);
     m_state->uploadMilliseconds = milliseconds(start);
 }
 

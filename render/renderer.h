@@ -5,10 +5,10 @@
 #include "core/base/result.h"
 #include "core/field/direction_field.h"
 #include "core/hair/strands.h"
-#include "core/lic/texture.h"
 #include "core/model/groom.h"
 #include "core/surface/surface.h"
 #include "render/camera.h"
+#include "render/lic_image.h"
 #include "render/uploads.h"
 #include "render/view_settings.h"
 
@@ -35,9 +35,9 @@ public:
     void setGroom(const Groom& groom, std::shared_ptr<const Surface> surface);
     void setStrands(std::shared_ptr<const Strands> strands);
 
-    /// Hair painted on the mesh, which ViewSettings::showLic shows as Groom::lic lights it; may be null. Made for
-    /// another mesh it is not shown.
-    void setLicTexture(std::shared_ptr<const LicTexture> texture);
+    /// Hair painted on the mesh, which ViewSettings::showLic shows as Groom::lic lights it; may be null. Painted for
+    /// another mesh than the groom's it is not shown. Uploads the tiles that are not those of the image before.
+    void setLicImage(std::shared_ptr<const LicImage> image);
 
     /// Colours of the mesh's triangles (linear, opacity last) that ViewSettings::heat shows; may be null.
     void setTriangleColours(std::shared_ptr<const std::vector<glm::vec4>> colours);

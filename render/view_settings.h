@@ -18,7 +18,7 @@ struct ViewSettings {
     bool showMesh = true;
     bool showTexture = true;
     bool showHair = true;
-    /// Hair texture on the mesh (Renderer::setLicTexture), with showHair below the strands, which cast shadows on it.
+    /// Hair texture on the mesh (Renderer::setLicImage), with showHair below the strands, which cast shadows on it.
     bool showLic = false;
     bool showGuides = false;
     bool showStrokes = false;        ///< strokes of the direction field, and where it turns

@@ -6,6 +6,7 @@
 #include "core/sampling/density.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace whorl {
@@ -239,9 +240,14 @@ Result<LicTexture> LicPainter::paint(const Groom& groom, const DirectionField& f
     if (fresh) next.tangents = nullptr;
     if (fresh || !turned.empty()) s.setTangents(next, turned);
 
+    static std::atomic<std::uint64_t> paintings = 0;
+    next.mesh = groom.mesh.share();
+    next.changedSince = fresh ? 0 : s.texture.serial;
+    next.serial = ++paintings;
     next.changedFrom = next.changedTo = glm::ivec2(0);
     LicBlocks changed = stale.light;
     LicChanges::add(stale.cover, changed);
+    LicChanges::add(stale.colours, changed);
     if (!fresh && anyOf(changed)) {
         const int across = s.atlas.blocksAcross(), size = s.atlas.size();
         glm::ivec2 from(size), to(0);

@@ -11,6 +11,8 @@
 
 namespace whorl {
 
+struct SurfaceMesh;
+
 /// Square layers in UVs that do not overlap, and the direction of the hair. Layers are immutable and shared: one that
 /// is the same object as before has not changed. Row 0 is the top (v = 1).
 struct LicTexture {
@@ -31,8 +33,12 @@ struct LicTexture {
     /// that the parameters lead to); drawn contrast is relative to them, so that no setting washes out.
     float mean = 0.5f;
     float deviation = 0.1f;
-    /// The part of `light` and `cover` that differs from the texture before: first texel and past the last one; both
-    /// zero: all of it may.
+    /// The mesh that it was painted for (Groom::mesh): on none but this very object the layers mean anything.
+    std::shared_ptr<const SurfaceMesh> mesh;
+    std::uint64_t serial = 0;        ///< of this painting in the process; 0: not painted
+    std::uint64_t changedSince = 0;  ///< serial of the texture before; 0: there is none
+    /// The part of `light`, `cover` and `colours` that differs from the texture before: first texel and past the last
+    /// one; both zero: all of it may.
     glm::ivec2 changedFrom{0};
     glm::ivec2 changedTo{0};
 

@@ -174,17 +174,17 @@ bool Exports::renderPicture(const std::filesystem::path& file, int width, int he
                 if (!made) return made.error();
                 strands = std::make_shared<const Strands>(std::move(*made));
             }
-            std::shared_ptr<const LicTexture> texture;
+            std::shared_ptr<const LicImage> texture;
             if (settings.showLic) {
                 auto made = LiveTexture().update(groom, surface, licSize, progress);
                 if (!made) return made.error();
-                texture = std::move(*made);
+                texture = LicImage::make(std::move(*made));
             }
             Result<OffscreenRenderer> offscreen = OffscreenRenderer::create();
             if (!offscreen) return offscreen.error();
             offscreen->renderer().setGroom(groom, surface);
             offscreen->renderer().setStrands(strands);
-            offscreen->renderer().setLicTexture(texture);
+            offscreen->renderer().setLicImage(texture);
             const Picture picture = offscreen->draw(*camera, settings, {}, width, height);
             return writePixels(picture.pixels, picture.width, picture.height, 4, file);
         });

@@ -22,7 +22,8 @@ void LicJob::request(const Groom& groom, std::shared_ptr<const Surface> surface,
             if (size > 0) {
                 auto texture = m_live.update(groom, surface, size, progress);
                 if (!texture) return;
-                made.texture = std::move(*texture);
+                m_painted = LicImage::make(std::move(*texture), m_painted);
+                made.image = m_painted;
             }
         }
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
@@ -37,7 +38,7 @@ void LicJob::deliver(std::uint64_t serial, Made made) {
     if (serial <= m_delivered) return;
     m_delivered = serial;
     m_milliseconds = made.milliseconds;
-    m_texture = std::move(made.texture);
+    m_image = std::move(made.image);
     m_singularities = std::move(made.singularities);
     Q_EMIT delivered();
 }

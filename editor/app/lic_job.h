@@ -4,6 +4,7 @@
 
 #include "core/lic/live_texture.h"
 #include "editor/app/latest_job.h"
+#include "render/lic_image.h"
 
 #include <QObject>
 #include <memory>
@@ -23,10 +24,10 @@ public:
     void request(const Groom& groom, std::shared_ptr<const Surface> surface, int size, bool interactive);
     bool busy() const { return m_job.busy() || m_delivered != m_requested; }
     /// Null until the first result.
-    std::shared_ptr<const LicTexture> texture() const { return m_texture; }
+    std::shared_ptr<const LicImage> image() const { return m_image; }
     /// Where the field of the last result turns.
     const std::vector<FieldSingularity>& singularities() const { return m_singularities; }
-    /// Milliseconds of the last one, field and texture.
+    /// Milliseconds of the last one, field, texture and its image.
     double milliseconds() const { return m_milliseconds; }
 
 Q_SIGNALS:
@@ -34,14 +35,15 @@ Q_SIGNALS:
 
 private:
     struct Made {
-        std::shared_ptr<const LicTexture> texture;
+        std::shared_ptr<const LicImage> image;
         std::vector<FieldSingularity> singularities;
         double milliseconds = 0.0;
     };
     void deliver(std::uint64_t serial, Made made);
 
-    LiveTexture m_live;  // used by the job's thread only
-    std::shared_ptr<const LicTexture> m_texture;
+    LiveTexture m_live;                         // used by the job's thread only
+    std::shared_ptr<const LicImage> m_painted;  // likewise: the last one
+    std::shared_ptr<const LicImage> m_image;
     std::vector<FieldSingularity> m_singularities;
     std::uint64_t m_requested = 0;
     std::uint64_t m_delivered = 0;

@@ -66,11 +66,11 @@ Outcome render(const Options& options) {
     settings.showStrokes = settings.showGuides;
     settings.overlayMap = options.map;
 
-    std::shared_ptr<const LicTexture> texture;
+    std::shared_ptr<const LicImage> texture;
     if (settings.showLic) {
         auto made = LiveTexture().update(*groom, surface, options.texture, progress());
         if (!made) return badInput(made.error());
-        texture = std::move(*made);
+        texture = LicImage::make(std::move(*made));
     }
     Bounds bounds = surface->bounds;
     std::shared_ptr<Strands> strands;
@@ -95,7 +95,7 @@ Outcome render(const Options& options) {
     if (!renderer) return badInput(renderer.error());
     renderer->renderer().setGroom(*groom, surface);
     renderer->renderer().setStrands(strands);
-    renderer->renderer().setLicTexture(texture);
+    renderer->renderer().setLicImage(texture);
     const Picture picture = renderer->draw(*camera, settings, {}, static_cast<int>(*width), static_cast<int>(*height));
     if (picture.pixels.empty())
         return badInput({"The picture could not be drawn; is it too large for the graphics card?"});

@@ -217,11 +217,10 @@ private:
             if (!made) return made.error();
             strands = std::move(*made);
         }
-        std::shared_ptr<const LicTexture> texture;
         if (m_settings.showLic) {
             auto made = m_texture.update(groom, surface, textureSize, progress);
             if (!made) return made.error();
-            texture = std::move(*made);
+            m_image = LicImage::make(std::move(*made), m_image);
         }
         const glm::vec2 size(static_cast<float>(m_width), static_cast<float>(m_height));
         auto camera = Camera::named(m_camera, surface->bounds, size);
@@ -230,7 +229,7 @@ private:
         camera->zoom(m_nearer);
         m_renderer->renderer().setGroom(groom, surface);
         m_renderer->renderer().setStrands(strands);
-        m_renderer->renderer().setLicTexture(texture);
+        m_renderer->renderer().setLicImage(m_settings.showLic ? m_image : nullptr);
         OverlayState overlay;
         overlay.text = label;
         Picture picture = m_renderer->draw(*camera, m_settings, overlay, m_width, m_height);
@@ -249,6 +248,7 @@ private:
     ViewSettings m_settings;
     Generator m_generator;
     LiveTexture m_texture;
+    std::shared_ptr<const LicImage> m_image;
     std::optional<OffscreenRenderer> m_renderer;
 };
 

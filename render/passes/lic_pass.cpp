@@ -1,132 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes/lic_pass.h"
 
-#include "core/base/parallel.h"
-
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
+#include <utility>
 
 namespace whorl {
 namespace {
 
-constexpr int side = MipImage::tileSize;
-constexpr std::uint8_t allSides = 7;
-
-/// Marks tiles of a layer of `channels` bytes a texel that differ.
-void markChanges(const LicTexture::Layer<std::uint8_t>& before, const LicTexture::Layer<std::uint8_t>& now, int size,
-                 std::size_t channels, std::vector<std::uint8_t>& changed) {
-    if (before == now) return;
-    if (!before || !now || before->size() != now->size()) {
-        std::fill(changed.begin(), changed.end(), std::uint8_t{1});
-        return;
-    }
-    const int columns = MipImage::tiles(size);
-    parallelFor(changed.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t tile = begin; tile < end; ++tile) {
-            const int x = static_cast<int>(tile) % columns * side, y = static_cast<int>(tile) / columns * side;
-            const std::size_t bytes = static_cast<std::size_t>(std::min(side, size - x)) * channels;
-            for (int row = y; row < std::min(y + side, size) && changed[tile] == 0; ++row) {
-                const std::size_t at =
-                    (static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) *
-                    channels;
-                if (std::memcmp(before->data() + at, now->data() + at, bytes) != 0) changed[tile] = 1;
-            }
+void uploadTiles(gl::Texture& target, int level, int width, const LicImage::Tiles& now, const LicImage::Tiles* before,
+                 Uploads& uploads) {
+    constexpr int side = LicImage::tileSize;
+    const int columns = ChartMask::tiles(width);
+    for (int y = 0; y < columns; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            const auto i = static_cast<std::size_t>(y * columns + x);
+            if (before != nullptr && (*before)[i] == now[i]) continue;
+            const glm::ivec2 from(x * side, y * side);
+            const glm::ivec2 size(std::min(side, width - from.x), std::min(side, width - from.y));
+            target.uploadLevel(level, from, size, now[i]->texels, side);
+            if (level == 0) ++uploads.licTiles;
+            uploads.bytes += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4;
         }
-    });
+    }
 }
 
 }  // namespace
 
 LicPass::LicPass() : m_uvs("hair texture uvs"), m_tangents("hair texture tangents") {}
 
-void LicPass::setTexture(std::shared_ptr<const LicTexture> texture, Uploads& uploads) {
-    if (texture == m_texture) return;
-    const std::shared_ptr<const LicTexture> before = std::exchange(m_texture, std::move(texture));
-    if (!m_texture || m_texture->empty()) {
-        m_texture = nullptr;
-        return;
-    }
-    const LicTexture& now = *m_texture;
-    const int size = now.size;
-    const bool resized = !before || before->size != size;
-    const bool fresh = resized || before->cornerUvs != now.cornerUvs;
+void LicPass::setImage(std::shared_ptr<const LicImage> image, Uploads& uploads) {
+    if (image == m_image) return;
+    const std::shared_ptr<const LicImage> before = std::exchange(m_image, std::move(image));
+    if (!m_image) return;
+    const LicTexture& now = *m_image->texture();
+    const LicTexture* was = before ? before->texture().get() : nullptr;
+    const bool resized = !was || was->size != now.size;
     if (resized) {
-        m_toneTexture = gl::Texture::make2D("hair tones", gl::Format::Rgba8, glm::ivec2(size), gl::Wrap::Clamp, true);
-        m_colourTexture =
-            gl::Texture::make2D("hair colours", gl::Format::Rgba8Srgb, glm::ivec2(size), gl::Wrap::Clamp, true);
+        const glm::ivec2 size(now.size);
+        m_tones = gl::Texture::make2D("hair tones", gl::Format::Rgba8, size, gl::Wrap::Clamp, true);
+        m_colours = gl::Texture::make2D("hair colours", gl::Format::Rgba8Srgb, size, gl::Wrap::Clamp, true);
     }
-    if (fresh) {
-        m_mask = ChartMask(size, *now.cornerUvs);
+    if (!was || was->cornerUvs != now.cornerUvs) {
         m_uvs.upload(*now.cornerUvs);
         uploads.bytes += m_uvs.size();
     }
-    if (!before || before->tangents != now.tangents) {
+    if (!was || was->tangents != now.tangents) {
         m_tangents.upload(*now.tangents);
         uploads.bytes += m_tangents.size();
     }
-    const auto sendTo = [&](gl::Texture& target) {
-        return [&](const MipImage::Piece& piece) {
-            target.uploadLevel(piece.level, piece.from, piece.size, piece.texels, side);
-            if (piece.level == 0) ++uploads.licTiles;
-            uploads.bytes += static_cast<std::size_t>(piece.size.x) * static_cast<std::size_t>(piece.size.y) * 4;
-        };
-    };
-    const auto tiles = static_cast<std::size_t>(MipImage::tiles(size));
-    std::vector<std::uint8_t> changed(tiles * tiles, fresh ? 1 : 0);
-    if (!fresh) {
-        if (before->mean != now.mean || before->deviation != now.deviation)
-            std::fill(changed.begin(), changed.end(), std::uint8_t{1});
-        markChanges(before->light, now.light, size, 1, changed);
-        markChanges(before->cover, now.cover, size, 1, changed);
-        markChanges(before->sides, now.sides, size, 1, changed);
+    for (int level = 0; level < m_image->levels(); ++level) {
+        const int width = m_image->side(level);
+        uploadTiles(m_tones, level, width, m_image->tones(level), resized ? nullptr : &before->tones(level), uploads);
+        uploadTiles(m_colours, level, width, m_image->colours(level), resized ? nullptr : &before->colours(level),
+                    uploads);
     }
-    std::array<MipImage::Texel, 256> tones;
-    for (std::size_t i = 0; i < tones.size(); ++i) {
-        const float tone = licTone(static_cast<float>(i) / 255.0f, now.mean, now.deviation);
-        // 128 is zero.
-        tones[i] = {static_cast<std::uint8_t>(tone * 127.0f + 128.5f),
-                    static_cast<std::uint8_t>(tone * tone * 255.0f + 0.5f), 0, 255};
-    }
-    const auto at = [size](int row, int column) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column);
-    };
-    m_tones.update(
-        m_mask, changed,
-        [&](int row, int first, int last, MipImage::Texel* out) {
-            for (int x = first; x < last; ++x, ++out) {
-                const std::uint8_t cover = (*now.cover)[at(row, x)];
-                // Where no hair lies there is no light to be told: what is around decides.
-                *out = cover > 0 ? tones[(*now.light)[at(row, x)]] : MipImage::Texel{128, 0, 0, 255};
-                (*out)[2] = cover;
-                (*out)[3] = now.sides ? (*now.sides)[at(row, x)] : allSides;
-            }
-        },
-        sendTo(m_toneTexture));
-    std::fill(changed.begin(), changed.end(), fresh ? std::uint8_t{1} : std::uint8_t{0});
-    if (!fresh) markChanges(before->colours, now.colours, size, 3, changed);
-    m_colours.update(
-        m_mask, changed,
-        [&](int row, int first, int last, MipImage::Texel* out) {
-            const std::uint8_t* from = now.colours->data() + at(row, first) * 3;
-            for (int x = first; x < last; ++x, ++out, from += 3) *out = {from[0], from[1], from[2], 255};
-        },
-        sendTo(m_colourTexture));
 }
 
-bool LicPass::covers(std::size_t triangles) const {
-    return m_texture && m_texture->cornerUvs->size() == triangles * 3;
+bool LicPass::covers(const SurfaceMesh& mesh) const {
+    return m_image && m_image->texture()->mesh.get() == &mesh;
 }
 
 void LicPass::bind(gl::Program& program, const LicParams& params, float ambient) const {
-    m_toneTexture.bind(6);
-    m_colourTexture.bind(7);
+    m_tones.bind(6);
+    m_colours.bind(7);
     m_uvs.bindStorage(5);
     m_tangents.bindStorage(6);
     program.set("licLight", glm::vec4(params.ambient * ambient, params.diffuse, params.specular,
                                       1.0f / std::max(params.shininess, 1.0f)));
-    program.set("licTone", glm::vec4(params.contrast, params.tilt, m_texture->mean, 0.0f));
+    program.set("licTone", glm::vec4(params.contrast, params.tilt, m_image->texture()->mean, 0.0f));
 }
 
 }  // namespace whorl

@@ -80,7 +80,7 @@ void MeshPass::draw(const ViewSettings& settings, bool litByVertex, const LicPas
         if (texture.empty()) texture.update(*map, m_maxTextureSize, uploads);
         return &texture;
     };
-    const bool painted = lic != nullptr && settings.showLic && lic->covers(m_triangles);
+    const bool painted = lic != nullptr && settings.showLic && lic->covers(*m_mesh);
     gl::Program& program = m_programs[painted ? 1 : 0][litByVertex ? 1 : 0];
     if (painted) lic->bind(program, *m_lic, settings.ambient / ViewSettings().ambient);
     const MapTexture* overlay = textureOf(settings.overlayMap);

@@ -18,9 +18,11 @@ namespace {
 constexpr int textureSize = 512;
 
 /// Hairs down a ball: each column of texels a hair of its own lightness, as a convolution of infinite length would be.
-LicTexture ballTexture(const SurfaceMesh& mesh, int size, const std::function<float(float, float)>& coverAt,
+LicTexture ballTexture(const Cow<SurfaceMesh>& shape, int size, const std::function<float(float, float)>& coverAt,
                        float mean = 0.5f) {
+    const SurfaceMesh& mesh = *shape;
     LicTexture texture;
+    texture.mesh = shape.share();
     texture.size = size;
     std::vector<std::uint8_t> light, cover, colours;
     for (int y = 0; y < size; ++y) {
@@ -129,15 +131,19 @@ class LicPassTest : public QObject {
     std::shared_ptr<const Surface> m_surface;
     Camera m_camera;
     ViewSettings m_settings;
+    std::shared_ptr<const LicImage> m_image;
 
     Picture draw(int side = 240) { return m_offscreen->draw(m_camera, m_settings, {}, side, side); }
     void setLic(const LicParams& params) {
         m_groom.lic.edit() = params;
         m_offscreen->renderer().setGroom(m_groom, m_surface);
     }
-    void setTexture(const LicTexture& texture) { m_offscreen->renderer().setLicTexture(shared(texture)); }
+    void setTexture(const LicTexture& texture) {
+        m_image = LicImage::make(shared(texture), m_image);
+        m_offscreen->renderer().setLicImage(m_image);
+    }
     LicTexture fullTexture(int size = textureSize) {
-        return ballTexture(*m_groom.mesh, size, [](float, float) { return 1.0f; });
+        return ballTexture(m_groom.mesh, size, [](float, float) { return 1.0f; });
     }
 
 private Q_SLOTS:
@@ -151,6 +157,7 @@ private Q_SLOTS:
         m_offscreen->renderer().setGroom(m_groom, m_surface);
         m_settings = ViewSettings();
         m_settings.showLic = true;
+        m_image = nullptr;
     }
 
     void tonesAreEvenAroundTheMean() {
@@ -169,7 +176,7 @@ private Q_SLOTS:
         m_settings.showLic = true;
         // No texture yet.
         QVERIFY(draw().pixels == skin.pixels);
-        setTexture(ballTexture(*m_groom.mesh, textureSize, [](float, float) { return 0.0f; }));
+        setTexture(ballTexture(m_groom.mesh, textureSize, [](float, float) { return 0.0f; }));
         const Picture bare = draw();
         // Two programs may round the last bit differently.
         QVERIFY2(mostDifference(bare, skin) <= 1, qPrintable(QString::number(mostDifference(bare, skin))));
@@ -181,9 +188,9 @@ private Q_SLOTS:
         m_settings.interactive = true;
         const Picture quick = draw();
         m_settings.showLic = true;
-        setTexture(ballTexture(*m_groom.mesh, textureSize, [](float, float) { return 0.0f; }));
+        setTexture(ballTexture(m_groom.mesh, textureSize, [](float, float) { return 0.0f; }));
         QVERIFY(mostDifference(draw(), quick) <= 1);
-        m_offscreen->renderer().setLicTexture(nullptr);
+        m_offscreen->renderer().setLicImage(nullptr);
         QVERIFY(draw().pixels == quick.pixels);
     }
 
@@ -197,7 +204,21 @@ private Q_SLOTS:
 
     void textureOfAnotherMeshIsNotShown() {
         const Picture skin = draw();
-        setTexture(ballTexture(testing::sphere(10, 12), textureSize, [](float, float) { return 1.0f; }));
+        const auto full = [](float, float) { return 1.0f; };
+        setTexture(ballTexture(Cow<SurfaceMesh>(testing::sphere(10, 12)), textureSize, full));
+        QVERIFY(draw().pixels == skin.pixels);
+        // Nor that of one with as many triangles, which nothing but its identity tells apart.
+        const Cow<SurfaceMesh> mesh = m_groom.mesh;
+        setTexture(ballTexture(mesh, textureSize, full));
+        const Picture hair = draw();
+        QVERIFY(mostDifference(hair, skin) > 60);
+        m_groom.mesh = Cow<SurfaceMesh>(*mesh);
+        m_offscreen->renderer().setGroom(m_groom, m_surface);
+        QVERIFY(draw().pixels == skin.pixels);
+        setTexture(ballTexture(m_groom.mesh, textureSize, full));
+        QVERIFY(draw().pixels == hair.pixels);
+        m_groom.mesh = mesh;
+        m_offscreen->renderer().setGroom(m_groom, m_surface);
         QVERIFY(draw().pixels == skin.pixels);
     }
 
@@ -207,7 +228,7 @@ private Q_SLOTS:
         m_settings.showLic = true;
         setTexture(fullTexture());
         const double hair = meanLight(draw());
-        setTexture(ballTexture(*m_groom.mesh, textureSize, [](float, float) { return 0.5f; }));
+        setTexture(ballTexture(m_groom.mesh, textureSize, [](float, float) { return 0.5f; }));
         const double half = meanLight(draw());
         QVERIFY2(hair < 0.75 * skin, qPrintable(QString("%1 against %2").arg(hair).arg(skin)));
         QVERIFY2(std::abs(half - 0.5 * (skin + hair)) < 0.01 * skin,
@@ -340,7 +361,7 @@ private Q_SLOTS:
         double before = 0.0;
         for (const float mean : {0.05f, 0.3f, 0.5f, 0.75f, 0.95f}) {
             setTexture(ballTexture(
-                *m_groom.mesh, textureSize, [](float, float) { return 1.0f; }, mean));
+                m_groom.mesh, textureSize, [](float, float) { return 1.0f; }, mean));
             const double light = meanLight(draw());
             QVERIFY2(light > before * 1.02, qPrintable(QString("%1: %2").arg(double{mean}).arg(light)));
             before = light;
@@ -394,12 +415,13 @@ private Q_SLOTS:
     void partialUploadEqualsWhole() {
         Renderer& renderer = m_offscreen->renderer();
         for (const int size : {512, 300}) {
-            renderer.setLicTexture(nullptr);
+            renderer.setLicImage(nullptr);
+            m_image = nullptr;
             LicTexture texture = fullTexture(size);
             const std::uint64_t atFirst = renderer.uploads().licTiles;
             setTexture(texture);
             const std::uint64_t all = renderer.uploads().licTiles - atFirst;
-            const auto tiles = static_cast<std::uint64_t>(MipImage::tiles(size));
+            const auto tiles = static_cast<std::uint64_t>(ChartMask::tiles(size));
             QCOMPARE(all, 2 * tiles * tiles);
             draw();
 
@@ -424,7 +446,7 @@ private Q_SLOTS:
             Result<OffscreenRenderer> other = OffscreenRenderer::create();
             QVERIFY(other.ok());
             other->renderer().setGroom(m_groom, m_surface);
-            other->renderer().setLicTexture(shared(texture));
+            other->renderer().setLicImage(LicImage::make(shared(texture)));
             for (const int side : {400, 100, 25}) {
                 QVERIFY(other->draw(m_camera, m_settings, {}, side, side).pixels == draw(side).pixels);
             }

@@ -97,7 +97,7 @@ void Viewport::paintGL() {
     const std::shared_ptr<const Surface> surface = m_document.surface();
     m_renderer->setGroom(m_document.groom(), surface);
     m_renderer->setStrands(m_strands);
-    m_renderer->setLicTexture(m_lic.texture());
+    m_renderer->setLicImage(m_lic.image());
     m_renderer->setSingularities(m_lic.singularities());
     m_renderer->setTriangleColours(m_heat.colours());
     if (std::exchange(m_lookedChanged, false)) m_renderer->setHighlight(m_looked, m_lookedBy);

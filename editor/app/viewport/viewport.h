@@ -41,7 +41,10 @@ public:
     /// Nothing is being generated, and the picture is the final one.
     bool settled() const;
     std::shared_ptr<const Strands> strands() const { return m_strands; }
-    std::shared_ptr<const LicTexture> licTexture() const { return m_lic.texture(); }
+    std::shared_ptr<const LicTexture> licTexture() const {
+        const auto image = m_lic.image();
+        return image ? image->texture() : nullptr;
+    }
     /// Draws a hair and the guides that shape it over everything; empty for none.
     void setHighlight(std::vector<glm::vec3> hair, std::vector<std::vector<glm::vec3>> guides);
     /// The view's settings with the tool's overlay, as they are drawn.

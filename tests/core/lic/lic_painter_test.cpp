@@ -143,7 +143,8 @@ private Q_SLOTS:
             const QString apart = difference(next, whole);
             QVERIFY2(apart.isEmpty(), qPrintable(QString("%1: %2").arg(what, apart)));
             // All that differs lies in the rectangle.
-            const bool same = *next.light == *last.light && *next.cover == *last.cover;
+            const bool same =
+                *next.light == *last.light && *next.cover == *last.cover && *next.colours == *last.colours;
             if (next.changedTo != glm::ivec2(0)) {
                 for (int y = 0; y < next.size; ++y) {
                     for (int x = 0; x < next.size; ++x) {
@@ -153,6 +154,8 @@ private Q_SLOTS:
                         const auto at = static_cast<std::size_t>(y * next.size + x);
                         QCOMPARE((*next.light)[at], (*last.light)[at]);
                         QCOMPARE((*next.cover)[at], (*last.cover)[at]);
+                        for (std::size_t c = 0; c < 3; ++c)
+                            QCOMPARE((*next.colours)[3 * at + c], (*last.colours)[3 * at + c]);
                     }
                 }
             } else {
@@ -185,6 +188,9 @@ private Q_SLOTS:
         const LicTexture before = last;
         check("tint");
         QVERIFY(last.light == before.light && last.colours != before.colours);
+        dab("tint", {90, 60}, 0.4f);
+        dab("opacity", {200, 120}, 0.6f);
+        check("tint and opacity apart");
         dab("groups", {120, 90}, 1.0f / 255.0f);
         check("groups");
         for (Group& group : groom.groups.edit()) group.params.colour.hueVariation.value = 0.4f;
