@@ -162,8 +162,11 @@ void addFieldCommands(std::vector<Command>& list) {
     list.push_back({"move-stroke", moveUsage, "Carries a stroke by so many metres, down onto the skin.", true, move});
     list.push_back({"remove-stroke", "remove-stroke ID", "Removes a stroke (info lists them).", true, remove});
     list.push_back({"clear-strokes", "clear-strokes", "Removes all strokes.", true, clear});
-    list.push_back({"strokes-from-guides", "strokes-from-guides [GROUP]",
-                    "Replaces the strokes by those that follow the guides as they lie.", true, fromGuides});
+    list.push_back(
+        {"strokes-from-guides", "strokes-from-guides [GROUP]",
+         "Replaces the strokes by those that follow the guides as they lie; strokes lead from then on (field/follow "
+         "becomes off).",
+         true, fromGuides});
     list.push_back({"grow-along", "grow-along [GROUP]",
                     "Gives all guides (or those of a group) new shapes along the field; set field/lift, field/length "
                     "and field/bend first.",

@@ -97,6 +97,7 @@ Result<void> makeStrokesOfGuides(Groom& groom, std::shared_ptr<const Surface> su
         strokes.back().id = static_cast<std::uint32_t>(strokes.size());
     }
     groom.strokes = Cow<std::vector<FieldStroke>>(std::move(strokes));
+    if (groom.field->follow) groom.field.edit().follow = false;
     return {};
 }
 

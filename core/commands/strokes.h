@@ -30,7 +30,8 @@ Result<void> moveStroke(Groom& groom, const Surface& surface, std::uint32_t id, 
 /// The id of the first stroke of `after` that is new or differs from that in `before`; 0 for none.
 std::uint32_t changedStroke(const Groom& before, const Groom& after);
 /// Replaces the strokes by those of agreedStrokes; of more guides than FieldStroke::maxStrokes by evenly picked ones.
-/// Fails when no guide of the group (-1: of all) lies along the skin, and when cancelled.
+/// They lead from then on: FieldParams::follow becomes false. Fails when no guide of the group (-1: of all) lies along
+/// the skin, and when cancelled.
 Result<void> makeStrokesOfGuides(Groom& groom, std::shared_ptr<const Surface> surface, int group, Progress& progress);
 
 }  // namespace whorl

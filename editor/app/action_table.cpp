@@ -81,8 +81,9 @@ void addGroom(std::vector<ActionInfo>& table) {
             "places guides first when there are none."),
          menu, A::Push, false, "grow"});
     table.push_back({"groom.strokes_from_guides", tr("Strokes &from Guides"), "",
-                     tr("Replaces the strokes by those that follow the guides as they lie."), menu, A::Push, false,
-                     ""});
+                     tr("Replaces the strokes by those that follow the guides as they lie. They lead from then on: "
+                        "\"Combing leads\" is turned off."),
+                     menu, A::Push, false, ""});
     table.push_back({"groom.remove_stroke", tr("Remove the Picked Stro&ke"), "Del",
                      tr("Removes the stroke that was drawn, moved or clicked last."), menu, A::Push, false, ""});
     table.push_back(

@@ -172,7 +172,11 @@ void GroomActions::strokesFromGuides() {
         runWithProgress<void>(&m_window, tr("Laying strokes along the guides"),
                               [&](Progress& progress) { return makeStrokesOfGuides(after, surface, -1, progress); });
     if (done) {
+        const bool followed = m_document.committed().field->follow;
         m_document.edit(std::move(after), tr("Strokes from guides"));
+        if (followed)
+            m_messages.say(MessageBar::Kind::Info,
+                           tr("Strokes lead the hair's direction now: \"Combing leads\" is off."));
     } else if (!done.error().cancelled) {
         m_messages.say(MessageBar::Kind::Warning, QString::fromStdString(done.error().message));
     }

@@ -9,6 +9,7 @@
 #include "editor/app/files.h"
 #include "editor/app/resources.h"
 #include "editor/app/viewport/viewport_area.h"
+#include "editor/app/widgets/message_bar.h"
 #include "tests/editor/window.h"
 
 #include <glm/geometric.hpp>
@@ -232,6 +233,28 @@ private Q_SLOTS:
         Groom turned = groom;
         for (FieldStroke& stroke : turned.strokes.edit()) std::ranges::reverse(stroke.points);
         QVERIFY(meanAngle(turned, *document().surface(), 0.008f, count) > 170.0);
+    }
+
+    // Guides led the field; the strokes made of them do, in one step that can be undone.
+    void strokesMadeOfGuidesLead() {
+        tool("sketch");
+        size(30.0f);
+        testing::drag(view(), {at(0.45, 0.2), at(0.55, 0.35)});
+        m_window->actions().get("groom.grow_along").trigger();
+        Groom led = document().committed();
+        led.field.edit().follow = true;
+        document().edit(std::move(led), "combing leads");
+        const Groom before = document().committed();
+        const int steps = document().history().count();
+        m_window->actions().get("groom.strokes_from_guides").trigger();
+        QVERIFY(strokes().size() > 1);
+        QVERIFY(!document().groom().field->follow);
+        QCOMPARE(document().history().count(), steps + 1);
+        QVERIFY2(m_window->area().messages().sentence().contains("Combing leads"),
+                 qPrintable(m_window->area().messages().sentence()));
+        document().undo();
+        QVERIFY(document().committed().sameAs(before));
+        QVERIFY(document().groom().field->follow);
     }
 
 private:

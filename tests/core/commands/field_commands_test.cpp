@@ -87,8 +87,9 @@ private Q_SLOTS:
 
     void guidesBecomeStrokes() {
         QVERIFY(say("add-stroke -0.2,0,0 0.2,0,0.2\nset field/lift 0\ngrow-along\nclear-strokes").ok());
-        QVERIFY(say("strokes-from-guides").ok());
+        QVERIFY(say("set field/follow on\nstrokes-from-guides").ok());
         const Groom& groom = m_context.groom;
+        QVERIFY(!groom.field->follow);  // strokes lead from now on
         QCOMPARE(groom.strokes->size(), groom.guides.count());
         QVERIFY(checkGroom(groom).empty());
         const glm::vec3 way = glm::normalize(glm::vec3(0.4f, 0.0f, 0.2f));
