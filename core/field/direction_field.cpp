@@ -16,8 +16,7 @@ bool FieldDomain::apart(const PartingIndex::Root& a, const PartingIndex::Root& b
 }
 
 bool FieldDomain::separated(std::uint32_t a, std::uint32_t b) const {
-    const SurfaceMesh& m = mesh();
-    return apart({m.positions[a], normals[a]}, {m.positions[b], normals[b]});
+    return apart(root(a), root(b));
 }
 
 glm::vec3 FieldDomain::tangent(std::uint32_t vertex, const glm::vec3& direction) const {
@@ -64,7 +63,7 @@ glm::vec3 DirectionField::at(const SurfacePoint& point) const {
         const glm::vec3 turned =
             minimalRotation(domain.normals[vertex], normal) * m_state->directions[vertex] * shares[k];
         all += turned;
-        if (careful && domain.apart(here, {mesh.positions[vertex], domain.normals[vertex]})) continue;
+        if (careful && domain.apart(here, domain.root(vertex))) continue;
         sum += turned;
     }
     // Every corner beyond a parting: a sliver that has no vertex of its own follows its triangle.

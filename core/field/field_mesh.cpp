@@ -33,6 +33,27 @@ bool mayBeParted(const FieldDomain& domain, std::uint32_t triangle) {
     return domain.partings.near(centre, radius);
 }
 
+/// Share of its shortest edge that a vertex counts as beside a parting at least.
+constexpr float besideShare = 0.01f;
+
+std::vector<glm::vec3> placesBeside(const FieldDomain& domain) {
+    const SurfaceMesh& mesh = domain.mesh();
+    std::vector<float> shortest(mesh.positions.size(), 0.0f);
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+        if (!domain.nearParting[t]) continue;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+            const float length = glm::distance(mesh.positions[a], mesh.positions[b]);
+            for (const std::uint32_t v : {a, b})
+                if (shortest[v] == 0.0f || length < shortest[v]) shortest[v] = length;
+        }
+    }
+    std::vector<glm::vec3> places = mesh.positions;
+    for (std::size_t v = 0; v < places.size(); ++v)
+        if (shortest[v] > 0.0f) places[v] = domain.partings.beside(places[v], besideShare * shortest[v]);
+    return places;
+}
+
 struct Edge {
     std::uint32_t from, to;  // unknowns
     double weight;
@@ -67,6 +88,7 @@ Result<FieldMesh> FieldMesh::make(std::shared_ptr<const Surface> surface, std::s
             made.vertex.push_back(mesh.triangles[t][k]);
         }
     }
+    if (!domain.partings.empty()) domain.besides = placesBeside(domain);
     made.areas.assign(made.vertex.size(), 0.0);
     std::vector<Edge> edges;
     double lengths = 0.0;

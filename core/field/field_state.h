@@ -20,10 +20,15 @@ struct FieldDomain {
     std::vector<std::uint8_t> nearParting;  ///< one a triangle: a parting may pass through it or along it
     std::vector<glm::vec3> normals;         ///< one a vertex
     std::vector<glm::vec3> axes;            ///< the first axis at each vertex
+    std::vector<glm::vec3> besides;         ///< one a vertex: where partings have it, clear of them; empty: no partings
 
     const SurfaceMesh& mesh() const { return surface->mesh(); }
     bool apart(const PartingIndex::Root& a, const PartingIndex::Root& b) const;
-    /// The same for two vertices.
+    /// A vertex, as partings have it.
+    PartingIndex::Root root(std::uint32_t vertex) const {
+        return {besides.empty() ? mesh().positions[vertex] : besides[vertex], normals[vertex]};
+    }
+    /// The same as `apart` for two vertices.
     bool separated(std::uint32_t a, std::uint32_t b) const;
     std::complex<double> inFrame(std::uint32_t vertex, const glm::vec3& direction) const;
     glm::vec3 fromFrame(std::uint32_t vertex, std::complex<double> value) const;

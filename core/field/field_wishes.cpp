@@ -34,8 +34,7 @@ void addWish(const FieldMesh& field, const SurfacePoint& point, const glm::vec3&
     double met = 0.0;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t corner = mesh.triangles[point.triangle][k];
-        const bool apart = domain.nearParting[point.triangle] != 0 &&
-                           domain.apart(here, {mesh.positions[corner], domain.normals[corner]});
+        const bool apart = domain.nearParting[point.triangle] != 0 && domain.apart(here, domain.root(corner));
         if (apart) continue;
         wish.unknowns[k] = field.unknown[corner];
         const glm::vec3 turned = minimalRotation(domain.normals[corner], normal) * domain.axes[corner];

@@ -132,8 +132,7 @@ std::vector<WayToLine> waysToLine(const FieldMesh& field, std::span<const Surfac
         if (!domain.grows[triangle]) continue;
         for (int c = 0; c < 3; ++c) {
             const std::uint32_t corner = mesh.triangles[triangle][c];
-            if (domain.nearParting[triangle] != 0 &&
-                domain.apart({place.position, place.normal}, {mesh.positions[corner], domain.normals[corner]}))
+            if (domain.nearParting[triangle] != 0 && domain.apart({place.position, place.normal}, domain.root(corner)))
                 continue;
             const glm::vec3 way = place.position - mesh.positions[corner];
             const glm::vec3 axis = minimalRotation(place.normal, domain.normals[corner]) * place.axis;

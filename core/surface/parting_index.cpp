@@ -240,4 +240,39 @@ bool PartingIndex::near(const glm::vec3& centre, float radius) const {
     return false;
 }
 
+glm::vec3 PartingIndex::besidePiece(const Piece& piece, const glm::vec3& place, float distance) const {
+    const Point &p = m_points[piece.point], &q = m_points[piece.point + 1];
+    const glm::vec3 way = q.position - p.position, out = glm::normalize(p.normal + q.normal);
+    const glm::vec3 across = glm::cross(out, way);
+    const float length = glm::length(way), width = glm::length(across);
+    if (!(width > 1e-6f * length)) return place;
+    const glm::vec3 from = place - p.position, side = across / width;
+    const float along = glm::dot(from, way) / length;
+    if (along < -distance || along > length + distance) return place;
+    if (std::abs(glm::dot(from, out)) > curtainHeight(distance, m_lines[piece.line].longest)) return place;
+    const float off = glm::dot(from, side);
+    return std::abs(off) < distance ? place + side * (std::copysign(distance, off) - off) : place;
+}
+
+glm::vec3 PartingIndex::beside(const glm::vec3& place, float distance) const {
+    glm::vec3 moved = place;
+    if (m_nodes.empty()) return moved;
+    const glm::vec3 reach(distance + curtainHeight(distance, m_longest));
+    std::array<std::uint32_t, 64> waiting;
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+        const std::uint32_t index = waiting[--count];
+        const Node& node = m_nodes[index];
+        if (!boxesMeet(node.box, place - reach, place + reach)) continue;
+        if (node.second != 0) {
+            waiting[count++] = node.second;
+            waiting[count++] = index + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.last; ++i) moved = besidePiece(m_pieces[i], moved, distance);
+    }
+    return moved;
+}
+
 }  // namespace whorl

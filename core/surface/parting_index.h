@@ -50,6 +50,10 @@ public:
     float detour(const Root& a, const Root& b) const;
     /// False only when no two roots in the ball are parted.
     bool near(const glm::vec3& centre, float radius) const;
+    /// The place itself, or when it lies less than `distance` beside a parting, moved away to that, on its side: the
+    /// middle edges of a symmetric mesh lie in a middle parting, and rounding would put a place of theirs on one side
+    /// for one pair and on the other for the next.
+    glm::vec3 beside(const glm::vec3& place, float distance) const;
 
 private:
     struct Point {
@@ -76,6 +80,7 @@ private:
     std::uint32_t build(std::uint32_t first, std::uint32_t last);
     bool crosses(const Piece& piece, float height, const Root& a, const Root& b) const;
     float aroundEnds(const Line& line, const Root& a, const Root& b) const;
+    glm::vec3 besidePiece(const Piece& piece, const glm::vec3& place, float distance) const;
 
     std::vector<Point> m_points;
     std::vector<Piece> m_pieces;

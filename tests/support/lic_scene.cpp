@@ -40,7 +40,9 @@ void LicScene::part(const std::vector<glm::vec3>& places) {
 
 void LicScene::solve() {
     Progress progress;
-    field = *groomField(groom, surface, progress);
+    field = grows.empty() ? *groomField(groom, surface, progress)
+                          : *FieldSolver::make(surface, grows, *groom.partings, progress)
+                                 ->solve(leadingStrokes(groom, *surface), *groom.field, progress);
 }
 
 LicPainter painterFor(const LicScene& scene, int size, LicLayout layout) {

@@ -22,7 +22,8 @@ extern const Lines aroundTheBall;
 struct LicScene {
     Groom groom;
     std::shared_ptr<const Surface> surface;
-    DirectionField field;  ///< of the groom as it was when last solved
+    DirectionField field;             ///< of the groom as it was when last solved
+    std::vector<std::uint8_t> grows;  ///< one a triangle; empty: as the groom's densities have it
 
     /// A new groom, solved.
     explicit LicScene(SurfaceMesh mesh, const Lines& strokes = {}, const Lines& partings = {});

@@ -175,6 +175,42 @@ private Q_SLOTS:
         }
     }
 
+    // The middle vertices of a symmetric mesh lie in a middle parting, and rounding has them now on one side of its
+    // line and now on the other.
+    void nothingCrossesAPartingThroughVertices() {
+        for (const float away : {0.0f, 8.0f, 100.0f}) {
+            SurfaceMesh mesh = testing::sphere(16, 16, 1.0f);
+            for (glm::vec3& p : mesh.positions) {
+                if (std::abs(p.x) < 1e-5f) p.x = 0.0f;
+                p += glm::vec3(0, away, 0.3f * away);
+            }
+            const glm::vec3 middle(0, away, 0.3f * away);
+            Scene scene(std::move(mesh));
+            for (std::uint32_t t = 0; t < scene.grows.size(); ++t)
+                scene.grows[t] = positionAt(scene.surface->mesh(), {t, 0.33f, 0.33f}).y - away > 0.5f;
+            std::vector<glm::vec3> line;
+            for (float up = 0.2f; up < 2.95f; up += 0.01f)
+                line.push_back(middle + glm::vec3(0, std::sin(up), std::cos(up)));
+            scene.part(line);
+            const auto aside = [&](float side, float turn) {
+                return strokeOn(*scene.surface, {middle + glm::vec3(0.3f * side, 0.95f, -turn),
+                                                 middle + glm::vec3(0.6f * side, 0.8f, turn)});
+            };
+            const DirectionField a = scene.solve({aside(-1, 0), aside(1, 0)}),
+                                 b = scene.solve({aside(-1, 0), aside(1, 0.3f)});
+            int turned = 0;
+            for (std::uint32_t t = 0; t < scene.grows.size(); ++t) {
+                if (!scene.grows[t]) continue;
+                const SurfacePoint place{t, 0.2f + 0.5f * randomFloat(4, t, 0), 0.2f * randomFloat(4, t, 1)};
+                const float off = degreesBetween(a.at(place), b.at(place));
+                turned += off > 10.0f;
+                if (positionAt(scene.surface->mesh(), place).x < 0.0f)
+                    QVERIFY2(off < 1e-3f, qPrintable(QString("%1 degrees, %2 away").arg(off).arg(away)));
+            }
+            QVERIFY(turned > 20);
+        }
+    }
+
     void nothingCrossesTheBorder() {
         Scene scene(testing::plane(16));
         // A bald stripe between two growing halves.

@@ -214,6 +214,36 @@ private Q_SLOTS:
         QVERIFY(far > 2000);
     }
 
+    // A place in the line comes to lie on one side of it for all others; one that is clear of it stays.
+    void besideIsClearOfTheLine() {
+        const Surface ball{Cow<SurfaceMesh>(testing::sphere(48, 96))};
+        const PartingIndex index(ball.mesh(), std::vector{traced(ball, {{0, 0.05f, 0.1f}, {0, 0.1f, -0.1f}})});
+        const float distance = 1e-4f;
+        int moved = 0;
+        for (std::uint64_t i = 0; i < 4000; ++i) {
+            const float up = 0.5f + 1.5f * randomFloat(11, i, 0), off = 2e-4f * (randomFloat(11, i, 1) - 0.5f);
+            const Root on = onBall(10.0f * off, std::sin(up), std::cos(up));
+            const Root clear{index.beside(on.position, distance), on.normal};
+            const float way = glm::distance(clear.position, on.position);
+            QVERIFY(way < 1.01f * distance);
+            moved += way > 0.0f;
+            int parted = 0;
+            for (const float x : {-0.3f, 0.3f}) {
+                for (int k = 0; k < 4; ++k) {
+                    const float near = up + 0.05f * static_cast<float>(k) - 0.075f;
+                    parted +=
+                        index.detour(clear, onBall(x, std::sin(near), std::cos(near))) > 1.0f ? (x < 0 ? 1 : 8) : 0;
+                }
+            }
+            // From all of one side and none of the other.
+            QVERIFY2(parted == 4 || parted == 32, qPrintable(QString::number(parted)));
+            QVERIFY(glm::distance(index.beside(clear.position, 0.99f * distance), clear.position) < 1e-6f);
+        }
+        QVERIFY(moved > 1000);
+        QCOMPARE(index.beside({0.05f, 0.08f, 0.02f}, distance), glm::vec3(0.05f, 0.08f, 0.02f));
+        QCOMPARE(PartingIndex().beside({1, 2, 3}, 1.0f), glm::vec3(1, 2, 3));
+    }
+
     void realHeads() {
         const auto folder = testing::realData("heads");
         if (!folder) QSKIP("no real data here");
