@@ -78,34 +78,6 @@ private Q_SLOTS:
         QVERIFY(whole > 30);
     }
 
-    void evenAlongAndWhiteAcross() {
-        const LicScene scene(testing::plane(10), {{{-0.2f, 0, 0}, {0.2f, 0, 0}}});
-        const LicReference lic = combed(scene);
-        LicOptions options;
-        options.grain = 0.005f;
-        options.length = 0.05f;
-        options.kernel = LicKernel::Box;
-        const auto value = [&](float x, float z) {
-            return static_cast<double>(*lic.at(scene.placeAt({x, 0, z}), options));
-        };
-        // Pairs a distance apart along and across.
-        for (const float share : {0.25f, 0.5f}) {
-            const float apart = share * 2.0f * options.length;
-            std::vector<double> a, along, across;
-            for (std::uint32_t i = 0; i < 1500; ++i) {
-                const float x = randomFloat(3, i, 0) * 0.7f - 0.4f, z = randomFloat(3, i, 1) * 0.8f - 0.4f;
-                a.push_back(value(x, z));
-                along.push_back(value(x + apart, z));
-                across.push_back(value(x, z + 1.5f * options.grain));
-            }
-            // A box over white noise: the correlation falls as a triangle does.
-            const double expected = 1.0 - static_cast<double>(share);
-            QVERIFY2(std::abs(correlation(a, along) - expected) < 0.08,
-                     qPrintable(QString("%1 for %2").arg(correlation(a, along)).arg(expected)));
-            QVERIFY2(std::abs(correlation(a, across)) < 0.08, qPrintable(QString::number(correlation(a, across))));
-        }
-    }
-
     void theShareOfWhiteIsTheMean() {
         const LicScene scene(testing::plane(4), {{{-0.2f, 0, 0}, {0.2f, 0, 0.1f}}});
         const LicReference lic = combed(scene);
