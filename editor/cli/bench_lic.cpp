@@ -221,19 +221,26 @@ void addDabs(LicBench& bench, const Scene& scene, std::vector<BenchRow>& rows) {
         dab(groom, "dab density", scene, flip);
         return &scene.field;
     }));
-    for (const float darkness : {0.6f, 0.0f}) {
-        const char* what = darkness > 0.0f ? "dab of density" : "dab that takes all hair away";
-        rows.push_back(bench.row(what, 2, dabTexels, [&](Groom& groom, bool flip) {
+    const float usual = scene.groom.lic->border;
+    struct Dab {
+        const char* what;
+        float darkness, border;
+    };
+    for (const Dab& density : {Dab{"dab of density", 0.6f, usual}, Dab{"dab that takes all hair away", 0.0f, usual},
+                               Dab{"dab that takes all hair away, border of 40 mm", 0.0f, 0.04f}}) {
+        rows.push_back(bench.row(density.what, 2, dabTexels, [&](Groom& groom, bool flip) {
             groom.lic.edit().opacity.map.clear();
+            groom.lic.edit().border = density.border;
             if (groom.groups->front().params.general.density.map != "dab density") {
                 for (Group& group : groom.groups.edit()) group.params.general.density.map = "dab density";
             }
-            dab(groom, "dab density", scene, flip, darkness);
+            dab(groom, "dab density", scene, flip, density.darkness);
             return &scene.field;
         }));
     }
     rows.push_back(bench.row("dab of grain", 2, dabTexels, [&](Groom& groom, bool flip) {
         groom.groups = scene.groom.groups;
+        groom.lic.edit().border = usual;
         groom.lic.edit().grain.map = "dab grain";
         dab(groom, "dab grain", scene, flip);
         return &scene.field;
