@@ -9,6 +9,7 @@
 #include <QTest>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 using namespace whorl;
 
@@ -100,6 +101,24 @@ private Q_SLOTS:
             if (std::max(std::abs(to.x), std::abs(to.z)) > 0.49f) continue;
             QVERIFY(glm::dot(glm::normalize(to - from), way) > 0.99f);
         }
+    }
+
+    void singularitiesAreListed() {
+        QVERIFY(say("add-stroke -0.2,0,0 0.2,0,0").ok());
+        QCOMPARE(*say("singularities"), std::string("0 in all, sum 0\n"));
+        QVERIFY(say("clear-strokes\nadd-stroke whorl radius 0.2 0.1,0,0.1").ok());
+        const std::string whorl = *say("singularities");
+        float x = 9.0f, y = 9.0f, z = 9.0f;
+        QCOMPARE(std::sscanf(whorl.c_str(), "+1 at %f,%f,%f", &x, &y, &z), 3);
+        // In one of the triangles around it.
+        QVERIFY2(glm::length(glm::vec3(x - 0.1f, y, z - 0.1f)) < 0.15f, whorl.c_str());
+        QVERIFY2(whorl.ends_with("1 in all, sum 1\n"), whorl.c_str());
+        // A ball that is grown all over has hair that turns around twice.
+        m_context.groom = makeGroom(testing::sphere(24, 32, 0.1f));
+        QVERIFY(say("add-stroke 0.1,0,0 0,0,0.1").ok());
+        const std::string ball = *say("singularities");
+        QVERIFY2(ball.ends_with(" in all, sum 2\n"), ball.c_str());
+        QVERIFY(!say("singularities all").ok());
     }
 
     void wrongWordsAreExplained() {
