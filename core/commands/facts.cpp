@@ -20,6 +20,10 @@ std::string_view formatName(TexelFormat format) {
     return format == TexelFormat::U8 ? "8 bit" : format == TexelFormat::U16 ? "16 bit" : "float";
 }
 
+glm::vec3 middleOf(const SurfaceMesh& mesh, std::uint32_t triangle) {
+    return positionAt(mesh, {triangle, 1.0f / 3.0f, 1.0f / 3.0f});
+}
+
 double squareMetres(const SurfaceMesh& mesh) {
     double sum = 0.0;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) sum += triangleArea(mesh, t);
@@ -134,6 +138,34 @@ std::string groomFactsJson(const Groom& groom, const Problems& problems, const s
     json["problems"] = problems;
     // Names come from strangers' files and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string singularitiesText(const DirectionField& field, const SurfaceMesh& mesh) {
+    std::string text;
+    int sum = 0;
+    const std::vector<FieldSingularity> all = field.singularities();
+    for (const FieldSingularity& place : all) {
+        const glm::vec3 at = middleOf(mesh, place.triangle);
+        text += (place.index > 0 ? "+" : "") + std::to_string(place.index) + " at ";
+        for (int k = 0; k < 3; ++k) text += (k > 0 ? "," : "") + paramText(static_cast<double>(at[k]));
+        text += " in triangle " + std::to_string(place.triangle) + "\n";
+        sum += place.index;
+    }
+    return text + std::to_string(all.size()) + " in all, sum " + std::to_string(sum);
+}
+
+std::string singularitiesJson(const DirectionField& field, const SurfaceMesh& mesh) {
+    Json json;
+    json["singularities"] = Json::array();
+    int sum = 0;
+    for (const FieldSingularity& place : field.singularities()) {
+        json["singularities"].push_back({{"index", place.index},
+                                         {"position", vectorJson(middleOf(mesh, place.triangle))},
+                                         {"triangle", place.triangle}});
+        sum += place.index;
+    }
+    json["sum"] = sum;
+    return json.dump(2);
 }
 
 }  // namespace whorl

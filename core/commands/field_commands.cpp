@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/commands/command_list.h"
+#include "core/commands/facts.h"
 #include "core/commands/strokes.h"
 #include "core/field/groom_field.h"
 #include "core/field/grow_guides.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace whorl {
 namespace {
@@ -158,18 +158,7 @@ Result<std::string> singularities(CommandContext& context, Arguments arguments, 
     const auto surface = context.surfaces.get(context.groom.mesh);
     const auto field = groomField(context.groom, surface, progress);
     if (!field) return field.error();
-    std::string text;
-    int sum = 0, count = 0;
-    for (const FieldSingularity& place : field->singularities()) {
-        const glm::vec3 at = positionAt(surface->mesh(), {place.triangle, 1.0f / 3.0f, 1.0f / 3.0f});
-        char line[96];
-        std::snprintf(line, sizeof line, "%+d at %.6g,%.6g,%.6g\n", place.index, static_cast<double>(at.x),
-                      static_cast<double>(at.y), static_cast<double>(at.z));
-        text += line;
-        sum += place.index;
-        ++count;
-    }
-    return text + std::to_string(count) + " in all, sum " + std::to_string(sum);
+    return singularitiesText(*field, surface->mesh());
 }
 
 }  // namespace
@@ -194,8 +183,9 @@ void addFieldCommands(std::vector<Command>& list) {
                     true, grow});
     list.push_back(
         {"singularities", "singularities",
-         "Lists the places around which directions turn: +1 is a whorl or a star, -1 a saddle; and their sum, "
-         "which on a closed mesh that is grown all over is 2 for a ball and 0 for a ring.",
+         "Lists the places around which directions turn: +1 is a whorl or a star, -1 a saddle; and their sum, which on "
+         "a "
+         "closed mesh that is grown all over is 2 for a ball and 0 for a ring; at borders and partings it may be any.",
          false, singularities});
 }
 

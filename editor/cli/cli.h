@@ -44,6 +44,7 @@ void addSample(CLI::App& app);
 void addGenerate(CLI::App& app);
 void addHash(CLI::App& app);
 void addExplain(CLI::App& app);
+void addSingularities(CLI::App& app);
 void addRender(CLI::App& app);
 void addBakeLic(CLI::App& app);
 void addExport(CLI::App& app);

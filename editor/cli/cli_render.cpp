@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/field/groom_field.h"
 #include "core/hair/generate.h"
 #include "core/hair/lod.h"
 #include "core/io/image.h"
@@ -24,6 +25,7 @@ struct Options {
     std::string map;
     int texture = 2048;
     float lod = 1.0f;
+    bool field = false;
     bool lodForSize = false;
     std::optional<std::uint32_t> count;
 };
@@ -63,7 +65,8 @@ Outcome render(const Options& options) {
     settings.showHair = options.view == "hair" || options.view == "both";
     settings.showLic = options.view == "lic" || options.view == "both";
     settings.showGuides = options.view == "guides";
-    settings.showStrokes = settings.showGuides;
+    const bool showField = options.field || options.view == "field";
+    settings.showStrokes = settings.showGuides || showField;
     settings.overlayMap = options.map;
 
     std::shared_ptr<const LicImage> texture;
@@ -71,6 +74,12 @@ Outcome render(const Options& options) {
         auto made = LiveTexture().update(*groom, surface, options.texture, progress());
         if (!made) return badInput(made.error());
         texture = LicImage::make(std::move(*made));
+    }
+    std::vector<FieldSingularity> singularities;
+    if (showField) {
+        const auto field = groomField(*groom, surface, progress());
+        if (!field) return badInput(field.error());
+        singularities = field->singularities();
     }
     Bounds bounds = surface->bounds;
     std::shared_ptr<Strands> strands;
@@ -96,6 +105,7 @@ Outcome render(const Options& options) {
     renderer->renderer().setGroom(*groom, surface);
     renderer->renderer().setStrands(strands);
     renderer->renderer().setLicImage(texture);
+    renderer->renderer().setSingularities(singularities);
     const Picture picture = renderer->draw(*camera, settings, {}, static_cast<int>(*width), static_cast<int>(*height));
     if (picture.pixels.empty())
         return badInput({"The picture could not be drawn; is it too large for the graphics card?"});
@@ -115,9 +125,12 @@ void addRender(CLI::App& app) {
     program->add_option("-o,--output", options->output, "Image to write: png, jpg, tif, exr or tga")->required();
     program->add_option("--size", options->size, "WIDTHxHEIGHT in pixels; 1280x720 without it");
     program
-        ->add_option("--view", options->view,
-                     "hair; lic: texture painted on the model; both: hair over its texture; or guides")
-        ->check(CLI::IsMember({"hair", "lic", "both", "guides"}));
+        ->add_option(
+            "--view", options->view,
+            "hair; lic: texture painted on the model; both: hair over its texture; guides: with the strokes; or field: "
+            "strokes, and stars where directions turn (red a whorl or a star, blue a saddle)")
+        ->check(CLI::IsMember({"hair", "lic", "both", "guides", "field"}));
+    program->add_flag("--field", options->field, "Strokes and stars over any view");
     program->add_option("--shading", options->shading, "kajiya-kay")->check(CLI::IsMember({"kajiya-kay"}));
     program->add_option("--shadows", options->shadows, "none or voxel")->check(CLI::IsMember({"none", "voxel"}));
     program->add_option("--camera", options->camera,

@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
     addGenerate(app);
     addHash(app);
     addExplain(app);
+    addSingularities(app);
     addRender(app);
     addBakeLic(app);
     addExport(app);

@@ -29,6 +29,7 @@ constexpr int textHeight = 26;
 constexpr double leastDifference = 0.002;
 /// Texels a side of hair texture.
 constexpr int textureSize = 2048;
+constexpr const char* showUsage = "show hair|lic|both|guides|field [field]";
 
 class Studio {
 public:
@@ -55,12 +56,15 @@ public:
     }
 
     Result<std::string> show(CommandContext&, Arguments arguments, Progress&) {
-        const std::string what = arguments.size() == 1 ? arguments[0] : std::string();
-        if (what != "hair" && what != "lic" && what != "both" && what != "guides")
-            return usageError("show hair|lic|both|guides");
+        const bool two = arguments.size() == 2 && arguments[1] == "field";
+        const std::string what = arguments.size() == 1 || two ? arguments[0] : std::string();
+        if (what != "hair" && what != "lic" && what != "both" && what != "guides" && what != "field")
+            return usageError(showUsage);
         m_settings.showHair = what == "hair" || what == "both";
         m_settings.showLic = what == "lic" || what == "both";
         m_settings.showGuides = what == "guides";
+        m_showField = two || what == "field";
+        m_settings.showStrokes = m_settings.showGuides || m_showField;
         return std::string();
     }
 
@@ -222,6 +226,12 @@ private:
             if (!made) return made.error();
             m_image = LicImage::make(std::move(*made), m_image);
         }
+        std::vector<FieldSingularity> singularities;
+        if (m_showField) {
+            const auto field = groomField(groom, surface, progress);
+            if (!field) return field.error();
+            singularities = field->singularities();
+        }
         const glm::vec2 size(static_cast<float>(m_width), static_cast<float>(m_height));
         auto camera = Camera::named(m_camera, surface->bounds, size);
         if (!camera) return camera.error();
@@ -230,6 +240,7 @@ private:
         m_renderer->renderer().setGroom(groom, surface);
         m_renderer->renderer().setStrands(strands);
         m_renderer->renderer().setLicImage(m_settings.showLic ? m_image : nullptr);
+        m_renderer->renderer().setSingularities(singularities);
         OverlayState overlay;
         overlay.text = label;
         Picture picture = m_renderer->draw(*camera, m_settings, overlay, m_width, m_height);
@@ -246,6 +257,7 @@ private:
     float m_time = 0.0f;
     std::vector<std::vector<Picture>> m_rows;
     ViewSettings m_settings;
+    bool m_showField = false;
     Generator m_generator;
     LiveTexture m_texture;
     std::shared_ptr<const LicImage> m_image;
@@ -269,8 +281,10 @@ std::vector<Command> pictureCommands() {
         &Studio::camera);
     add("look-at", "look-at X,Y,Z|model", "The middle of pictures: a place in metres, or that of the model.",
         &Studio::lookAt);
-    add("show", "show hair|lic|both|guides",
-        "What pictures show: hair, the texture of it on the model (lic), hair over its texture, or guides.",
+    add("show", showUsage,
+        "What pictures show: hair, the texture of it on the model (lic), hair over its texture, guides with the "
+        "strokes, "
+        "or strokes with stars where directions turn (field), which also come over the others.",
         &Studio::show);
     add("light", "light AZIMUTH,ELEVATION",
         "Where the light of pictures comes from, in degrees; it turns with the camera.", &Studio::light);

@@ -228,6 +228,46 @@ private Q_SLOTS:
         QVERIFY(draw(settings).pixels == plain.pixels);
     }
 
+    // A star stands in the picture where its triangle is, red for a whorl and blue for a saddle, and hardly shines
+    // through the model.
+    void starsStandWhereDirectionsTurn() {
+        ViewSettings settings;
+        settings.showStrokes = true;
+        m_camera.zoom(2.0f);
+        const StrokeView view = m_camera.strokeView(glm::vec2(side), m_surface->bounds);
+        const auto triangleAt = [&](const glm::vec3& position) {
+            return m_surface->query.nearest(position)->point.triangle;
+        };
+        const Picture none = draw(settings);
+        for (const int index : {1, -1, 2}) {
+            const std::uint32_t triangle = triangleAt({0.02f, 0.03f, 0.09f});
+            m_offscreen->renderer().setSingularities({{triangle, index}});
+            const Picture star = draw(settings);
+            const auto at = view.pixelFromGroom(positionAt(m_surface->mesh(), {triangle, 1.0f / 3.0f, 1.0f / 3.0f}));
+            QVERIFY(at);
+            int count = 0;
+            for (int y = 0; y < side; ++y) {
+                for (int x = 0; x < side; ++x) {
+                    const auto i = (static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)) * 4;
+                    const auto more = [&](std::size_t c) { return int{star.pixels[i + c]} - int{none.pixels[i + c]}; };
+                    if (std::max({std::abs(more(0)), std::abs(more(1)), std::abs(more(2))}) <= 24) continue;
+                    ++count;
+                    QVERIFY((more(0) > more(2)) == (index > 0));
+                    const glm::vec2 pixel(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                    QVERIFY2(glm::distance(pixel, *at) < 6.0f, qPrintable(QString("%1, %2").arg(x).arg(y)));
+                }
+            }
+            QVERIFY2(count > 4, qPrintable(QString::number(count)));
+            settings.showStrokes = false;
+            QVERIFY(draw(settings).pixels == none.pixels);
+            settings.showStrokes = true;
+        }
+        m_offscreen->renderer().setSingularities({{triangleAt({0.02f, 0.03f, -0.09f}), 1}});
+        QCOMPARE(pixelsThatDiffer(draw(settings), none, 24), 0);
+        m_offscreen->renderer().setSingularities({});
+        QVERIFY(draw(settings).pixels == none.pixels);
+    }
+
     void brushAndTextAreDrawnOver() {
         const Picture plain = draw({});
         OverlayState overlay;

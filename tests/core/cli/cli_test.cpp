@@ -8,6 +8,8 @@
 #include <QJsonObject>
 #include <QProcess>
 #include <QTest>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 using namespace whorl;
@@ -235,6 +237,91 @@ private Q_SLOTS:
         refused({"bake-lic", inScratch("missing.whorl"), "-o", image}, 1, "missing.whorl");
         write(script, ("open \"" + document + "\"\ntexture * nothing\n").toStdString());
         refused({"run", script}, 1, "nothing");
+    }
+
+    void singularitiesAreListedAndDrawn() {
+        const QString document = inScratch("turns.whorl"), script = inScratch("turns.txt");
+        const std::string opened = "open \"" + document.toStdString() + "\"\n";
+        write(script, "open \"" + meshFile().toStdString() + "\"\nadd-stroke whorl radius 0.03 0.04,0.06,0\nsave \"" +
+                          document.toStdString() + "\"\n");
+        QCOMPARE(run({"run", script}).status, 0);
+        const Answer listed = run({"singularities", document});
+        QVERIFY2(listed.status == 0, listed.errors.constData());
+        write(script, opened + "singularities\n");
+        QCOMPARE(run({"run", script}).output, listed.output);
+        const QJsonObject json = QJsonDocument::fromJson(run({"singularities", document, "--json"}).output).object();
+        const QJsonArray all = json["singularities"].toArray();
+        QCOMPARE(listed.output.count('\n'), all.size() + 1);
+        int sum = 0;
+        QJsonObject whorl;
+        double nearest = 1.0;
+        for (const QJsonValue& value : all) {
+            const QJsonArray at = value.toObject()["position"].toArray();
+            QCOMPARE(at.size(), qsizetype{3});
+            sum += value.toObject()["index"].toInt();
+            const double away = std::hypot(at[0].toDouble() - 0.04, at[1].toDouble() - 0.06, at[2].toDouble());
+            if (away < nearest) {
+                nearest = away;
+                whorl = value.toObject();
+            }
+        }
+        QCOMPARE(json["sum"].toInt(), sum);
+        QVERIFY(nearest < 0.03);
+        QCOMPARE(whorl["index"].toInt(), 1);
+        refused({"singularities"}, 2, "FILE");
+        refused({"singularities", inScratch("missing.whorl")}, 1, "missing.whorl");
+
+        // Pictures that look at it, with the strokes alone and with the stars: those are in the middle.
+        const QJsonArray at = whorl["position"].toArray();
+        QString place;
+        for (const QJsonValue& value : at)
+            place += (place.isEmpty() ? "" : ",") + QString::number(value.toDouble(), 'f', 7);
+        const auto picture = [&](const char* what, const char* image) {
+            write(script, opened + "clear-guides\nlook-at " + place.toStdString() + "\ncamera top 4 240x240\nshow " +
+                              what + "\nrender \"" + inScratch(image).toStdString() + "\"\n");
+            const Answer answer = run({"run", script});
+            const Result<Map> map = readImage(inScratch(image).toStdString(), ImageUse::Colour);
+            return answer.status == 0 && map ? *map : Map();
+        };
+        const Map strokes = picture("guides", "turns_strokes.png"), stars = picture("field", "turns_field.png"),
+                  skin = picture("hair", "turns_skin.png"), over = picture("hair field", "turns_over.png");
+        for (const Map* map : {&strokes, &stars, &skin, &over}) QCOMPARE(map->width(), 240);
+        int star = 0, red = 0, drawn = 0, other = 0;
+        const auto differ = [](const Map& a, const Map& b, int x, int y) {
+            float most = 0.0f;
+            for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(a.texel(x, y, c) - b.texel(x, y, c)));
+            return most > 0.05f;
+        };
+        for (int y = 0; y < 240; ++y) {
+            for (int x = 0; x < 240; ++x) {
+                drawn += differ(strokes, skin, x, y);
+                other += differ(stars, over, x, y);
+                if (!differ(stars, strokes, x, y)) continue;
+                ++star;
+                red += stars.texel(x, y, 0) > stars.texel(x, y, 2);
+                QVERIFY2(std::hypot(x - 119.5, y - 119.5) < 14.0, qPrintable(QString("%1, %2").arg(x).arg(y)));
+            }
+        }
+        QVERIFY2(star > 20 && red == star, qPrintable(QString("%1 pixels, %2 red").arg(star).arg(red)));
+        QVERIFY(drawn > 100);
+        QCOMPARE(other, 0);
+        // The program draws the same.
+        const QString plain = inScratch("turns_plain.png"), field = inScratch("turns_program.png");
+        QCOMPARE(run({"render", document, "-o", plain, "--view", "lic", "--texture", "64", "--size", "200x200"}).status,
+                 0);
+        QCOMPARE(
+            run({"render", document, "-o", field, "--view", "lic", "--texture", "64", "--size", "200x200", "--field"})
+                .status,
+            0);
+        const Result<Map> without = readImage(plain.toStdString(), ImageUse::Colour),
+                          with = readImage(field.toStdString(), ImageUse::Colour);
+        QVERIFY(without && with);
+        int changed = 0;
+        for (int y = 0; y < 200; ++y)
+            for (int x = 0; x < 200; ++x) changed += differ(*without, *with, x, y);
+        QVERIFY(changed > 20);
+        write(script, opened + "show field hair\n");
+        refused({"run", script}, 1, "show");
     }
 
     void scriptsRun() {
