@@ -21,7 +21,9 @@ private:
         if (map->channels() != 1 || map->empty()) {
             return Error{"The map \"" + settings.map + "\" holds colours; choose a map of numbers to paint."};
         }
-        if (groom.counts->densityTotal == 0.0f && drivesDensity(groom, settings.map)) m_before = groom;
+        // Without guides there is no hair that could change: the number stands for all that will have been painted.
+        if (groom.counts->densityTotal == 0.0f && !groom.guides.empty() && drivesDensity(groom, settings.map))
+            m_before = groom;
         return {};
     }
 

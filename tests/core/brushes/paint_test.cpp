@@ -3,6 +3,8 @@
 #include "core/brushes/brush.h"
 #include "core/brushes/orbit_view.h"
 #include "core/brushes/paint_canvas.h"
+#include "core/commands/command.h"
+#include "core/hair/generate.h"
 #include "tests/support/shapes.h"
 
 #include <QTest>
@@ -180,6 +182,39 @@ private Q_SLOTS:
         const Groom after = painted(groom, settings, {{400.0f, 300.0f}});
         QVERIFY(valueAt(after, 0, 0.5f, 0.5f) < 0.02f);
         QCOMPARE(valueAt(after, 0, 0.02f, 0.02f), valueAt(groom, 0, 0.02f, 0.02f));
+    }
+
+    // Before there are guides strokes say where the hairs that were asked for grow; afterwards they add some.
+    void theNumberOfHairsStandsForAllThatWasPaintedFirst() {
+        Groom groom = paintable(sphere(24, 48, 0.1f), Map(256, 256, 1, TexelFormat::U8, 0.0f));
+        groom.groups.edit()[0].params.general.density.map = "paint";
+        groom.setHairs(2000);
+        BrushSettings settings;
+        settings.strength = 1.0f;
+        settings.radiusPixels = 40.0f;
+        Progress progress;
+        const auto surface = std::make_shared<const Surface>(groom.mesh);
+        const auto addGuides = [&](Groom& to) {
+            for (std::uint32_t t = 0; t < to.mesh->triangleCount(); t += 40)
+                addGuide(to, *surface, {t, 0.3f, 0.3f}, 0, 0.02f);
+        };
+        const auto hairs = [&](const Groom& of) {
+            Groom haired = of;
+            if (haired.guides.empty()) addGuides(haired);
+            Generator generator;
+            generator.setSurface(surface);
+            const auto strands = generator.generate(haired, {}, progress);
+            return strands ? strands->count() : 0;
+        };
+        for (const float y : {200.0f, 260.0f, 320.0f, 380.0f})
+            groom = painted(groom, settings, {{340.0f, y}, {460.0f, y}});
+        QCOMPARE(groom.counts->densityTotal, 0.0f);
+        const std::size_t first = hairs(groom);
+        QVERIFY2(first > 1800 && first < 2200, qPrintable(QString::number(first)));
+        addGuides(groom);
+        groom = painted(groom, settings, {{300.0f, 300.0f}, {500.0f, 300.0f}});
+        QVERIFY(groom.counts->densityTotal > 0.0f);
+        QVERIFY(hairs(groom) > first + 100);
     }
 
     void theBackStaysClean() {
