@@ -20,13 +20,13 @@ std::size_t strideOf(std::size_t rows) {
 
 }  // namespace
 
-FrontColumns FrontSolver::Front::parts() {
+FrontColumns FrontSolver::Front::parts(double* square) {
     const std::size_t stride = strideOf(rows()), restStride = strideOf(rest.size());
     return {columns.data(),
             columns.data() + stride * pivots,
             stride,
-            left.data(),
-            left.data() + restStride * rest.size(),
+            square,
+            square ? square + restStride * rest.size() : nullptr,
             restStride,
             pivots,
             rest.size()};
@@ -63,7 +63,9 @@ FrontSolver::FrontSolver(std::uint32_t unknowns, std::span<const Pair> pairs) {
                 if (place >= end) front.rest.push_back(place);
             }
             front.level = std::max(front.level, m_fronts[child].level + 1);
+            front.below += m_fronts[child].below;
         }
+        front.below += front.pivots;
         std::ranges::sort(front.rest);
         front.rest.erase(std::unique(front.rest.begin(), front.rest.end()), front.rest.end());
         const auto row = [&](std::uint32_t place) { return place < end ? place - front.first : rowOf[place]; };
@@ -105,6 +107,12 @@ std::vector<FrontSolver::Complex> FrontSolver::solve(const System& system, std::
             if (m_right[unknown] != right[unknown]) state = otherRight;
         }
         if (state != otherMatrix && (anew || changed(front, system))) state = otherMatrix;
+    }
+    // Parents before children: what a front is made of has to be there.
+    for (std::size_t f = m_fronts.size(); f-- > 0;) {
+        if (states[f] != otherMatrix) continue;
+        for (const std::uint32_t child : m_fronts[f].children)
+            if (m_fronts[child].forgets()) states[child] = otherMatrix;
     }
     m_system = system;
     m_right.assign(right.begin(), right.end());
@@ -167,8 +175,8 @@ void FrontSolver::solveForward(Front& front) {
 void FrontSolver::make(Front& front) {
     const std::size_t rest = front.rest.size(), rows = front.pivots + rest;
     front.columns.assign(2 * strideOf(rows) * front.pivots, 0.0);
-    front.left.assign(2 * strideOf(rest) * rest, 0.0);
-    const FrontColumns columns = front.parts();
+    std::vector<double> square(2 * strideOf(rest) * rest, 0.0);
+    const FrontColumns columns = front.parts(square.data());
     const auto at = [&](std::size_t row, std::size_t column) {
         return column < front.pivots
                    ? std::pair(columns.pivotReal + column * columns.pivotStride + row,
@@ -189,18 +197,18 @@ void FrontSolver::make(Front& front) {
         }
     }
     for (const std::uint32_t c : front.children) {
-        const Front& child = m_fronts[c];
-        const std::size_t stride = strideOf(child.rest.size());
+        Front& child = m_fronts[c];
+        const double* real = child.left.data();
+        const double* imaginary = real + child.left.size() / 2;
         for (std::size_t column = 0; column < child.rest.size(); ++column) {
-            const double* real = child.left.data() + column * stride;
-            const double* imaginary = real + stride * child.rest.size();
             for (std::size_t row = column; row < child.rest.size(); ++row) {
                 // Rows rise in the parent, too: pivots are before the rest, and both are sorted.
                 const auto [toReal, toImaginary] = at(child.inParent[row], child.inParent[column]);
-                *toReal += real[row];
-                *toImaginary += imaginary[row];
+                *toReal += *real++;
+                *toImaginary += *imaginary++;
             }
         }
+        if (child.forgets()) child.left = {};
     }
     const auto eliminate = WHORL_PICK(frontEliminate);
     const auto subtract = WHORL_PICK(frontSubtract);
@@ -209,6 +217,13 @@ void FrontSolver::make(Front& front) {
         eliminate(columns, first, last, m_least);
         parallelFor(rows - last, columnsATime,
                     [&](std::size_t from, std::size_t to) { subtract(columns, first, last, last + from, last + to); });
+    }
+    front.left.resize(rest * (rest + 1));
+    double* real = front.left.data();
+    double* imaginary = real + front.left.size() / 2;
+    for (std::size_t column = 0; column < rest; ++column) {
+        real = std::copy_n(columns.restReal + column * columns.restStride + column, rest - column, real);
+        imaginary = std::copy_n(columns.restImaginary + column * columns.restStride + column, rest - column, imaginary);
     }
 }
 

@@ -59,11 +59,17 @@ private:
         std::vector<std::uint32_t> children{};
         std::uint32_t level = 0;  // above the lowest
         std::uint32_t firstEntry = 0, lastEntry = 0;
-        std::vector<double> columns{}, left{};  // those of the pivots, and what is left for the parent
+        std::uint32_t below = 0;        // pivots of it and of all fronts under it
+        std::vector<double> columns{};  // those of the pivots
+        // What is left for the parent: the lower triangle column by column, real parts and then imaginary ones.
+        std::vector<double> left{};
         // The right side, real parts and then imaginary ones: half solved for the pivots, what is left for the others.
         std::vector<double> half{};
         std::size_t rows() const { return pivots + rest.size(); }
-        FrontColumns parts();
+        /// `square`: room for what is left, while it is made.
+        FrontColumns parts(double* square = nullptr);
+        /// What is left is made again when it is asked for: that takes less than remembering all of it.
+        bool forgets() const { return below <= 64; }
     };
 
     void order(std::uint32_t unknowns, std::span<const Pair> pairs);
