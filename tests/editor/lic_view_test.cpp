@@ -79,7 +79,9 @@ private Q_SLOTS:
         const QImage hair = picture();
         QVERIFY(!view().licTexture());
         choose("Texture");
+        QVERIFY2(view().statusText().contains("painting hair texture"), qPrintable(view().statusText()));
         const QImage texture = picture();
+        QVERIFY(!view().statusText().contains("painting"));
         QVERIFY(view().licTexture() && !view().licTexture()->empty());
         QVERIFY(!view().viewSettings().showHair && view().viewSettings().showLic);
         QVERIFY(differing(hair, texture) > 2000);

@@ -135,15 +135,22 @@ OverlayState Viewport::overlay() const {
     overlay.brushRadius = m_state.brushOptions().radius * ratio;
     overlay.scale = ratio;
     overlay.brushStrength = m_state.brushOptions().strength;
-    if (m_document.hasGroom()) {
-        const auto count = [](std::size_t n) { return QLocale().toString(static_cast<qulonglong>(n)); };
-        overlay.text = tr("%1 hairs shown, %2 guides   hair %3 ms, picture %4 ms")
-                           .arg(count(m_strands ? m_strands->count() : 0), count(m_document.groom().guides.count()))
-                           .arg(m_hair.milliseconds(), 0, 'f', 0)
-                           .arg(m_drawMilliseconds, 0, 'f', 0)
-                           .toStdString();
-    }
+    overlay.text = statusText().toStdString();
     return overlay;
+}
+
+QString Viewport::statusText() const {
+    if (!m_document.hasGroom()) return {};
+    const auto count = [](std::size_t n) { return QLocale().toString(static_cast<qulonglong>(n)); };
+    QString text = tr("%1 hairs shown, %2 guides   hair %3 ms, picture %4 ms")
+                       .arg(count(m_strands ? m_strands->count() : 0), count(m_document.groom().guides.count()))
+                       .arg(m_hair.milliseconds(), 0, 'f', 0)
+                       .arg(m_drawMilliseconds, 0, 'f', 0);
+    // The first texture of a mesh of a million triangles takes ten seconds.
+    const auto texture = licTexture();
+    const bool here = texture && texture->mesh && texture->mesh.get() == &*m_document.groom().mesh;
+    if (m_lic.busy() && viewSettings().showLic && !here) text += tr("   painting hair texture...");
+    return text;
 }
 
 void Viewport::documentChanged() {

@@ -45,6 +45,8 @@ public:
         const auto image = m_lic.image();
         return image ? image->texture() : nullptr;
     }
+    /// The line of text below the picture.
+    QString statusText() const;
     /// Draws a hair and the guides that shape it over everything; empty for none.
     void setHighlight(std::vector<glm::vec3> hair, std::vector<std::vector<glm::vec3>> guides);
     /// The view's settings with the tool's overlay, as they are drawn.
