@@ -114,10 +114,14 @@ bool stepOn(const ConvolveArrays& a, std::int32_t& atX, std::int32_t& atY, std::
         stays = 0;
         const Special* there = specialAt(a, texelAt(a, x, y));
         cut = there && there->jumps == 0 ? there : nullptr;
+        // Nor does the seam lead over a parting.
+        if (special->parted != 0 && partedBy(*special, special->toX, special->toY, x, y)) return false;
     }
     const std::int32_t nextX = within(x + ((special->stepX * way) >> fraction), limit);
     const std::int32_t nextY = within(y + ((special->stepY * way) >> fraction), limit);
     if (cut && cut->parted != 0 && partedBy(*cut, x, y, nextX, nextY)) return false;
+    if (special->jumps != 0 && special->parted != 0 && partedBy(*special, special->toX, special->toY, nextX, nextY))
+        return false;
     atX = nextX;
     atY = nextY;
     return true;

@@ -21,7 +21,8 @@ inline constexpr int weightSum = 2000;  ///< of a kernel: sums of noise fit into
 /// A special texel.
 struct Special {
     std::int32_t stepX, stepY;
-    std::uint32_t parted;   ///< bit (y + 2) * 5 + x + 2: a parting lies between here and the texel that far away
+    std::uint32_t parted;   ///< bit (y + 2) * 5 + x + 2: a parting lies between here and the texel that far away, or
+                            ///< that far from where this one jumps to
     std::uint32_t jumps;    ///< the place is beyond a seam: before the step streamlines go on there
     std::int32_t toX, toY;  ///< where the middle of the texel goes
     float turn[4];          ///< rows; of what lies around the middle

@@ -97,23 +97,35 @@ void LicWords::setPartings(std::span<const Parting> partings) {
         const auto rootAt = [&](std::uint32_t slot) {
             return PartingIndex::Root{positionAt(mesh, slots[slot].point()), normalAt(mesh, slots[slot].point())};
         };
-        parallelFor(slots.size(), 4096, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                if (m_special[i] || !m_nearParting[slots[i].triangle]) continue;
-                const PartingIndex::Root here = rootAt(static_cast<std::uint32_t>(i));
-                const TexelAtlas::Gradients g = m_atlas.gradients(slots[i].triangle);
-                const float fine = std::min(glm::length(g.x), glm::length(g.y));
-                if (!(fine > 0.0f) || !m_partings.near(here.position, 4.0f / fine)) continue;
-                std::uint32_t mask = 0;
-                for (int n = 0; n < 25; ++n) {
-                    const auto texel =
-                        static_cast<std::int64_t>(slots[i].texel) + (n / 5 - 2) * m_atlas.side() + n % 5 - 2;
-                    const std::uint32_t there = m_atlas.slotOf(static_cast<std::uint32_t>(texel));
-                    if (n == 12 || there == TexelAtlas::none) continue;
-                    if (m_partings.detour(here, rootAt(there)) > 1.0f) mask |= 1u << n;
-                }
-                masks[i] = mask;
+        // Of the 25 texels around one, those that a parting lies before, seen from the place of the slot.
+        const auto maskOf = [&](std::uint32_t slot, std::int64_t around) {
+            std::uint32_t mask = 0;
+            if (!m_nearParting[slots[slot].triangle]) return mask;
+            const PartingIndex::Root here = rootAt(slot);
+            const TexelAtlas::Gradients g = m_atlas.gradients(slots[slot].triangle);
+            const float fine = std::min(glm::length(g.x), glm::length(g.y));
+            if (!(fine > 0.0f) || !m_partings.near(here.position, 4.0f / fine)) return mask;
+            const auto texels = static_cast<std::int64_t>(m_words.size());
+            for (int n = 0; n < 25; ++n) {
+                const std::int64_t texel = around + (n / 5 - 2) * m_atlas.side() + n % 5 - 2;
+                const std::uint32_t there =
+                    texel >= 0 && texel < texels ? m_atlas.slotOf(static_cast<std::uint32_t>(texel)) : TexelAtlas::none;
+                if (there == TexelAtlas::none || there == slot) continue;
+                if (m_partings.detour(here, rootAt(there)) > 1.0f) mask |= 1u << n;
             }
+            return mask;
+        };
+        parallelFor(found.size(), 256, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                Special& special = found[i].second;
+                const std::int64_t around =
+                    std::int64_t{special.toY / lic_word::one} * m_atlas.side() + special.toX / lic_word::one;
+                special.parted = maskOf(m_atlas.slotOf(found[i].first), around);
+            }
+        });
+        parallelFor(slots.size(), 4096, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                if (!m_special[i]) masks[i] = maskOf(static_cast<std::uint32_t>(i), slots[i].texel);
         });
         for (std::size_t i = 0; i < slots.size(); ++i) {
             if (masks[i] == 0) continue;
@@ -145,6 +157,8 @@ int LicWords::setStep(std::uint32_t slot, glm::vec2 step, float longest) {
         return 0;
     }
     const auto reach = [](const glm::ivec2& fixed) { return std::max(std::abs(fixed.x), std::abs(fixed.y)); };
+    // What a texel knows of partings ends two texels away.
+    if (!m_nearParting.empty() && m_nearParting[m_atlas.slots()[slot].triangle]) longest = std::min(longest, 2.0f);
     if (!m_special[slot]) {
         const glm::ivec2 fixed = fixedStep(step, longest);
         word = (word & lic_word::noise) | bitsOf(fixed.x) << 20 | bitsOf(fixed.y) << 8;
@@ -153,7 +167,7 @@ int LicWords::setStep(std::uint32_t slot, glm::vec2 step, float longest) {
     const std::uint32_t first = m_firstSpecial[texel / lic_word::segment];
     const auto at = std::lower_bound(m_specialTexels.begin() + first, m_specialTexels.end(), texel);
     const auto number = static_cast<std::uint32_t>(at - m_specialTexels.begin());
-    const glm::ivec2 fixed = fixedStep(step, m_specials[number].jumps != 0 ? longest : std::min(longest, 2.0f));
+    const glm::ivec2 fixed = fixedStep(step, longest);
     m_specials[number].stepX = fixed.x;
     m_specials[number].stepY = fixed.y;
     word = (word & lic_word::noise) | lic_word::mark | (number - first) << 8;

@@ -327,10 +327,9 @@ private Q_SLOTS:
             }
             QVERIFY2(here > 2000 && there > 2000 && changed > here * 9 / 10,
                      qPrintable(QString("%1 of %2, %3").arg(changed).arg(here).arg(there)));
-            // Where a seam meets the parting, a streamline that jumps to a texel whose middle lies beyond it, or to one
-            // that jumps itself, goes on there unasked (stepOn in core/lic/convolve.kernel.cpp).
-            for (const char* name : {"cow", "duck", "armadillo", "scanned bunny"})
-                QEXPECT_FAIL(name, "streamlines cross the parting where a seam meets it", Abort);
+            // Where texels' middles lie within a tenth of a texel of the line, a few streamlines still cross it.
+            for (const char* name : {"duck", "scanned bunny"})
+                QEXPECT_FAIL(name, "streamlines cross the parting at texels that lie in it", Abort);
             QVERIFY2(leaked == 0, qPrintable(QString("%1 of %2").arg(leaked).arg(there)));
         }
     }
