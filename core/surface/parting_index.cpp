@@ -21,17 +21,41 @@ float curtainHeight(float distance, float longestPiece) {
     return 0.75f * distance + 0.5f * longestPiece;
 }
 
-// Six times the volume of (a, b, c, p). Odd in b and c up to the last bit, so that triangles agree on a shared edge.
-double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
-    return glm::dot(glm::cross(b - a, c - a), p - a);
-}
-
-// True when the way from a to b meets the triangle. A place on its plane counts as in front, edges belong to both
-// sides: neighbours leave no crack between them.
-bool meets(const Vec3d& a, const Vec3d& b, const std::array<Vec3d, 3>& t) {
-    if ((volume(t[0], t[1], t[2], a) >= 0) == (volume(t[0], t[1], t[2], b) >= 0)) return false;
-    const double x = volume(a, t[0], t[1], b), y = volume(a, t[1], t[2], b), z = volume(a, t[2], t[0], b);
-    return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
+// How often (mod 2) the way from a to b meets the part of a curtain over one piece of a line: all p + (q - p) s +
+// (n + (m - n) s) t for s from 0 to 1 and t from -h to h. It is ruled, not made of triangles, whose diagonals would lie
+// elsewhere for another h: on which side a place lies is the same for all pairs. Neighbours decide on the ruling that
+// they share by the same numbers, and leave no crack; a place on the curtain counts as in front.
+bool meets(const Vec3d& a, const Vec3d& b, const Vec3d& p, const Vec3d& q, const Vec3d& n, const Vec3d& m, double h) {
+    const Vec3d c = b - a, d = q - p, turn = m - n;
+    // The line through a and b meets the ruling at s where c . (normal x (place - a)) is 0: a parabola, known at both
+    // ends.
+    const double first = glm::dot(c, glm::cross(n, p - a)), last = glm::dot(c, glm::cross(m, q - a));
+    const double bend = glm::dot(c, glm::cross(turn, d)), slope = last - first - bend;
+    const auto meetsAt = [&](double s) {
+        const Vec3d place = p + d * s, normal = n + turn * s;
+        const Vec3d across = glm::cross(c, normal);
+        const double size = glm::dot(across, across);
+        if (!(size > 0.0)) return false;
+        const double w = glm::dot(glm::cross(place - a, normal), across) / size;
+        const double t = glm::dot(a + c * w - place, normal) / glm::dot(normal, normal);
+        if (!(std::abs(t) <= h)) return false;
+        const bool toFront = glm::dot(c, glm::cross(d + turn * t, normal)) > 0.0;
+        return toFront ? w > 0.0 && w <= 1.0 : w >= 0.0 && w < 1.0;
+    };
+    const double under = slope * slope - 4.0 * bend * first;
+    if ((first >= 0.0) != (last >= 0.0)) {
+        // One of the two roots.
+        const double far = -0.5 * (slope + std::copysign(std::sqrt(std::max(under, 0.0)), slope));
+        const double one = far != 0.0 ? first / far : 2.0, other = bend != 0.0 ? far / bend : 2.0;
+        const auto off = [](double s) { return std::max(std::max(-s, s - 1.0), 0.0); };
+        return meetsAt(std::clamp(off(one) <= off(other) ? one : other, 0.0, 1.0));
+    }
+    // None or both.
+    const bool turnsBack =
+        (first >= 0.0) == (bend > 0.0) && slope * bend < 0.0 && std::abs(slope) < 2.0 * std::abs(bend);
+    if (!turnsBack || !(under > 0.0)) return false;
+    const double far = -0.5 * (slope + std::copysign(std::sqrt(under), slope));
+    return meetsAt(first / far) != meetsAt(far / bend);
 }
 
 bool boxesMeet(const Bounds& box, const glm::vec3& low, const glm::vec3& high) {
@@ -163,11 +187,8 @@ bool PartingIndex::crosses(const Piece& piece, float height, const Root& a, cons
     const Point &p = m_points[piece.point], &q = m_points[piece.point + 1];
     const glm::vec3 facing = p.normal + q.normal;
     if (glm::dot(facing, a.normal) < -0.5f && glm::dot(facing, b.normal) < -0.5f) return false;
-    const double h{height};
-    const Vec3d pOut = Vec3d(p.position) + Vec3d(p.normal) * h, pIn = Vec3d(p.position) - Vec3d(p.normal) * h;
-    const Vec3d qOut = Vec3d(q.position) + Vec3d(q.normal) * h, qIn = Vec3d(q.position) - Vec3d(q.normal) * h;
-    const Vec3d from(a.position), to(b.position);
-    return meets(from, to, {pIn, qIn, pOut}) || meets(from, to, {pOut, qIn, qOut});
+    return meets(Vec3d(a.position), Vec3d(b.position), Vec3d(p.position), Vec3d(q.position), Vec3d(p.normal),
+                 Vec3d(q.normal), static_cast<double>(height));
 }
 
 float PartingIndex::aroundEnds(const Line& line, const Root& a, const Root& b) const {

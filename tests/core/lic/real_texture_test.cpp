@@ -327,9 +327,6 @@ private Q_SLOTS:
             }
             QVERIFY2(here > 2000 && there > 2000 && changed > here * 9 / 10,
                      qPrintable(QString("%1 of %2, %3").arg(changed).arg(here).arg(there)));
-            // Where texels' middles lie within a tenth of a texel of the line, a few streamlines still cross it.
-            for (const char* name : {"duck", "scanned bunny"})
-                QEXPECT_FAIL(name, "streamlines cross the parting at texels that lie in it", Abort);
             QVERIFY2(leaked == 0, qPrintable(QString("%1 of %2").arg(leaked).arg(there)));
         }
     }

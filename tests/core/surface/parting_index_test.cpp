@@ -100,6 +100,45 @@ private Q_SLOTS:
         }
     }
 
+    // Normals of scans shake, and the curtain twists: on which side a root lies is the same for all other roots, near
+    // and far, however near to the line it is itself.
+    void sidesAreTheSameForAllPairs() {
+        SurfaceMesh mesh = m_plane.mesh();
+        for (std::size_t v = 0; v < mesh.normals.size(); ++v)
+            mesh.normals[v] = glm::normalize(glm::vec3(randomFloat(4, v, 0) - 0.5f, 1.0f, randomFloat(4, v, 1) - 0.5f));
+        const PartingIndex index(mesh, {&m_middle, 1});
+        for (std::uint64_t i = 0; i < 20000; ++i) {
+            const float nearness = std::pow(10.0f, -1.0f - 5.0f * randomFloat(5, i, 0));
+            const Root a = onPlane(nearness * (randomFloat(5, i, 1) - 0.5f), 0.3f * randomFloat(5, i, 2) - 0.15f);
+            const Root b =
+                onPlane(0.1f * randomFloat(5, i, 3) - 0.05f, a.position.z + 0.1f * randomFloat(5, i, 4) - 0.05f);
+            const bool apart = (a.position.x < 0) != (b.position.x < 0);
+            QCOMPARE(index.separated(a, b), apart);
+            QCOMPARE(index.separated(b, a), apart);
+        }
+        // Off the plane no formula says where the curtain is, but of three pairs of roots none or two are parted.
+        for (std::size_t v = 0; v < mesh.normals.size(); ++v)
+            mesh.normals[v] = glm::normalize(glm::vec3(3.0f * mesh.positions[v].z, 1.0f, 2.0f * mesh.positions[v].z));
+        const Parting piece{1, "", {m_middle.points.front(), m_middle.points.back()}};
+        const PartingIndex twisted(mesh, {&piece, 1});
+        int parted = 0;
+        for (std::uint64_t i = 0; i < 20000; ++i) {
+            Root three[3];
+            for (std::uint64_t k = 0; k < 3; ++k) {
+                three[k] = onPlane(0.3f * randomFloat(6, i, k) - 0.15f, 0.4f * randomFloat(6, i, 3 + k) - 0.2f);
+                three[k].position.y = 0.4f * randomFloat(6, i, 6 + k) - 0.2f;
+            }
+            int count = 0;
+            for (int k = 0; k < 3; ++k) count += twisted.detour(three[k], three[(k + 1) % 3]) > 1.0f;
+            QVERIFY2(count == 0 || count == 2, qPrintable(QString("%1: %2").arg(i).arg(count)));
+            parted += count > 0;
+            // Beyond an end there is no curtain.
+            for (Root& root : three) root.position.z += i % 2 == 0 ? 0.7f : -0.7f;
+            for (int k = 0; k < 3; ++k) QCOMPARE(twisted.detour(three[k], three[(k + 1) % 3]), 1.0f);
+        }
+        QVERIFY(parted > 10000);
+    }
+
     // Ways straight through the points of the line, where two pieces of curtain meet.
     void hasNoCracks() {
         const Surface ball{Cow<SurfaceMesh>(testing::sphere(48, 96))};
